@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "umbrix/export.h"
+#include "umbrix/status.h"
+
+/// EXR and PNG out.
+namespace umbrix::io {
+
+/// A float image, rows from the top, channels interleaved. Linear Rec.709 where it is colour.
+struct Image {
+  int width = 0;
+  int height = 0;
+  std::vector<std::string> channels;  ///< "R", "G", "B", "A", "normal.X", "depth.Z", ...
+  std::vector<float> pixels;          ///< width * height * channels.size()
+  std::vector<std::pair<std::string, std::string>> metadata;        ///< text attributes
+  std::vector<std::pair<std::string, std::vector<float>>> matrices; ///< 16 floats each, e.g. worldToCamera
+};
+
+enum class PixelType { half, single };
+enum class ToneMap { none, srgb, aces };
+
+struct WriteOptions {
+  PixelType pixel_type = PixelType::half;  ///< EXR
+  float exposure = 0;                      ///< stops, PNG
+  ToneMap tone_map = ToneMap::srgb;        ///< PNG; none: linear values clamped and stored without a curve
+  bool overwrite = false;                  ///< otherwise an existing file is an error
+};
+
+/// Fails as write_image would, for what can be known before rendering: format, folder, existing file.
+UMBRIX_API Status check_output(const std::string& path, const WriteOptions& options);
+
+/// Writes by extension: .exr takes all channels, linear; .png takes R, G, B through exposure, tone map and sRGB curve.
+/// The file appears whole or not at all (written under a temporary name, then renamed); its bytes depend on the
+/// arguments only. output_failed names the file and the reason.
+UMBRIX_API Status write_image(const std::string& path, const Image& image, const WriteOptions& options);
+
+/// Reads an image back as floats (colour not converted). bad_input names the file.
+UMBRIX_API Status read_image(const std::string& path, Image& out);
+
+/// Writes text or bytes atomically, for reports. "-" is standard output.
+UMBRIX_API Status write_text(const std::string& path, const std::string& text, bool overwrite);
+
+}  // namespace umbrix::io

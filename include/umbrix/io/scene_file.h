@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "umbrix/export.h"
+#include "umbrix/status.h"
+
+/// glTF 2.0 in: plain data, checked and in one form, whatever the file's encoding.
+namespace umbrix::io {
+
+using Float3 = std::array<float, 3>;
+using Double3 = std::array<double, 3>;
+
+/// An affine transform, row-major 3x4: point' = m[row][0..2] . point + m[row][3].
+using Transform = std::array<std::array<double, 4>, 3>;
+inline constexpr Transform kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// glTF's metallic-roughness material; colours are linear Rec.709.
+struct Material {
+  std::string name;
+  Float3 base_color{1, 1, 1};
+  float alpha = 1;
+  float metallic = 1;
+  float roughness = 1;
+  Float3 emission{0, 0, 0};
+  bool double_sided = false;
+  AlphaMode alpha_mode = AlphaMode::opaque;
+  float alpha_cutoff = 0.5f;                 ///< for AlphaMode::mask
+  std::int32_t base_color_texture = -1;      ///< index of the file's texture, kept for when textures are read
+};
+
+/// One glTF primitive as a triangle list. Strips and fans are expanded, accessors decoded.
+struct Mesh {
+  std::string name;
+  std::vector<Float3> positions;
+  std::vector<Float3> normals;                     ///< empty, or one a position
+  std::vector<std::array<float, 2>> texcoords;     ///< empty, or one a position
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices are in range
+  std::uint32_t material = 0;                      ///< always valid; a default material exists
+};
+
+/// A mesh placed in the world.
+struct Instance {
+  std::string name;
+  std::uint32_t mesh = 0;
+  Transform to_world = kIdentity;
+};
+
+enum class LightType { point, spot, directional };
+
+/// A punctual light in world space (KHR_lights_punctual): candela for point and spot, lux for directional.
+struct Light {
+  std::string name;
+  LightType type = LightType::point;
+  Float3 color{1, 1, 1};
+  float intensity = 1;
+  float range = std::numeric_limits<float>::infinity();  ///< no light beyond; infinite if the file has none
+  Double3 position{0, 0, 0};
+  Double3 direction{0, 0, -1};   ///< the way the light shines; unit length
+  float inner_cone_angle = 0;    ///< radians, for spots
+  float outer_cone_angle = 0.7853982f;
+};
+
+enum class CameraType { perspective, orthographic };
+
+/// Looks along its local -z, +y up (glTF).
+struct Camera {
+  std::string name;
+  CameraType type = CameraType::perspective;
+  double yfov = 0.7853981633974483;  ///< radians, perspective
+  double aspect = 0;                 ///< width / height; 0: the image's
+  double xmag = 1, ymag = 1;         ///< half extents, orthographic
+  double znear = 0;
+  double zfar = std::numeric_limits<double>::infinity();
+  Transform to_world = kIdentity;    ///< rotation and translation; any scale is removed
+};
+
+/// What a file holds, after all checks.
+struct SceneFile {
+  std::string path;
+  std::string generator;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Light> lights;
+  std::vector<Camera> cameras;
+  std::vector<std::string> extensions_used;
+  std::vector<std::string> ignored;   ///< one line for each kind of thing the file has and we do not use
+  std::vector<std::string> warnings;
+  std::uint64_t textures = 0;
+  std::uint64_t animations = 0;
+
+  /// Triangles over all instances.
+  UMBRIX_API std::uint64_t instanced_triangles() const noexcept;
+};
+
+/// Refused above these, before memory is asked for.
+struct LoadLimits {
+  std::uint64_t file_bytes = 4ull << 30;
+  std::uint64_t triangles = 1ull << 29;  ///< over all instances
+  std::uint32_t node_depth = 256;
+  std::uint64_t nodes = 1'000'000;
+  bool allow_paths_outside = false;      ///< buffers outside the scene file's folder
+};
+
+/// Reads .gltf or .glb (told apart by content). On failure `out` is empty and the message names the file and what is
+/// wrong in one line: bad_input, or resource_limit. Thread-safe for different `out`.
+UMBRIX_API Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits = {});
+
+/// Camera and lights from outside the scene file.
+struct Setup {
+  std::optional<Camera> camera;
+  std::vector<Light> lights;      ///< empty: keep the file's
+};
+
+/// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"
+/// of which the one that matches the scene's file name is taken. A camera is {eye, target, up, fov_y_degrees}.
+/// A light is [x, y, z] (a point light of a default intensity, see default_intensity) or an object.
+UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out);
+
+/// The intensity in candela that gives a white surface, facing one of `lights` point lights at 0.3 of the scene's
+/// diagonal, a radiance of about 1.
+UMBRIX_API float default_intensity(const SceneFile& scene, std::size_t lights);
+
+/// A camera that frames the scene, for files that have none.
+UMBRIX_API Camera framing_camera(const SceneFile& scene);
+
+/// A directional light of pi lux over the camera's left shoulder, for files that have none.
+UMBRIX_API Light default_light(const Camera& camera);
+
+}  // namespace umbrix::io

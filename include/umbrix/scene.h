@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "umbrix/executor.h"
+#include "umbrix/export.h"
+#include "umbrix/kernel.h"
+#include "umbrix/mesh.h"
+#include "umbrix/ray.h"
+#include "umbrix/stats.h"
+#include "umbrix/status.h"
+
+namespace umbrix {
+
+/// How much time a commit may spend on the tree.
+enum class BuildQuality {
+  high,  ///< exact surface area heuristic, triangles clipped to cells (Wald & Havran 2006)
+  fast,  ///< binned heuristic on clipped boxes: for previews
+};
+
+struct BuildOptions {
+  BuildQuality quality = BuildQuality::high;
+  const Executor* executor = nullptr;  ///< null: oneTBB
+};
+
+/// What a query sees and how it is answered.
+struct QueryOptions {
+  std::uint32_t mask = 0xFFFFFFFFu;  ///< meshes with (mesh mask & mask) == 0 are not there
+  const Primitive* skip = nullptr;   ///< one for each ray: a triangle that is not there for that ray; or null
+  KernelId kernel;                   ///< default: the recommended one
+};
+
+/// Triangles and the tree over them. Add meshes, commit once, then ask.
+///
+/// Answers are those of real arithmetic for the float rays and float vertices: a ray hits a triangle if some
+/// t with tmin < t < tmax lies on it, edges and vertices included. A ray within a triangle's plane does not
+/// hit it. Every kernel, instruction set and thread count gives the same answers.
+///
+/// Thread-safety: add and commit from one thread; after commit, queries from any number of threads.
+/// No call throws. Queries before commit see nothing.
+class UMBRIX_API Scene {
+ public:
+  Scene() noexcept;
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
+  /// Copies a mesh in; `*mesh`, if given, receives its number (0, 1, ... in order).
+  /// invalid_argument: null or misaligned data, an index out of range, a scene already committed.
+  /// resource_limit: no memory, or more than 2^29 triangles.
+  Status add(const MeshView& mesh, std::uint32_t* mesh_id = nullptr);
+
+  /// Builds the tree. resource_limit: no memory; the scene then stays empty.
+  Status commit(const BuildOptions& options = {});
+
+  /// Is something between the ray's ends?
+  bool occluded(const Ray& ray, const QueryOptions& options = {}) const noexcept;
+
+  /// The same for many rays: out[i] is 1 if rays[i] is occluded, else 0.
+  void occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& options = {}) const noexcept;
+
+  /// The hit with the smallest t; among equal t, of the triangle added first. Returns whether there is one.
+  bool closest(const Ray& ray, Hit& hit, const QueryOptions& options = {}) const noexcept;
+  void closest(RaySpan rays, Hit* out, const QueryOptions& options = {}) const noexcept;
+
+  /// As above, and adds the work done to `counts`. Slower; answers are the same.
+  void occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
+                const QueryOptions& options = {}) const noexcept;
+  void closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options = {}) const noexcept;
+
+  /// What commit did; zeros before.
+  const BuildStats& build_stats() const noexcept;
+
+  /// The box of the kept triangles; false (and zeros) if there are none.
+  bool bounds(float lower[3], float upper[3]) const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// A ray origin for a point on a triangle, displaced along the normal on the side of `toward`, far enough that the
+/// rounding of the point cannot put it behind the triangle (after Pharr, Jakob & Humphreys 2023, section 6.8.6).
+/// `point_error` bounds the point's absolute error per axis; `normal` is the geometric one, any length.
+UMBRIX_API void offset_origin(const float point[3], const float point_error[3], const float normal[3],
+                              const float toward[3], float origin[3]) noexcept;
+
+}  // namespace umbrix
