@@ -16,14 +16,14 @@ struct OpacityTest {
 /// Borrowed triangles. Memory is read during Scene::add only; the test's `user` must outlive the scene.
 /// Non-finite and zero-area triangles are dropped and counted (BuildStats); indices are checked.
 struct MeshView {
-  const float* vertices = nullptr;           ///< x, y, z at the start of each vertex
+  const float* vertices = nullptr;  ///< x, y, z at the start of each vertex
   std::size_t vertex_count = 0;
-  std::size_t vertex_stride = 12;            ///< bytes from one vertex to the next; a multiple of 4
-  const std::uint32_t* indices = nullptr;    ///< three a triangle; null: vertices 0 1 2, 3 4 5, ...
+  std::size_t vertex_stride = 12;          ///< bytes from one vertex to the next; a multiple of 4
+  const std::uint32_t* indices = nullptr;  ///< three a triangle; null: vertices 0 1 2, 3 4 5, ...
   std::size_t triangle_count = 0;
-  std::size_t index_stride = 12;             ///< bytes from one triangle to the next; a multiple of 4
-  std::uint32_t mask = 0xFFFFFFFFu;          ///< a query sees the mesh if (mask & query mask) != 0
-  OpacityTest opacity;                       ///< none: the mesh is opaque
+  std::size_t index_stride = 12;     ///< bytes from one triangle to the next; a multiple of 4
+  std::uint32_t mask = 0xFFFFFFFFu;  ///< a query sees the mesh if (mask & query mask) != 0
+  OpacityTest opacity;               ///< none: the mesh is opaque
 };
 
 }  // namespace umbrix

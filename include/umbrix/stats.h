@@ -9,13 +9,13 @@ namespace umbrix {
 /// Work done for a set of rays. Deterministic for a given kernel, tree and instruction set width of 8.
 struct RayCounts {
   std::uint64_t rays = 0;
-  std::uint64_t invalid_rays = 0;      ///< answered "no hit" without a walk (see Ray)
-  std::uint64_t node_tests = 0;        ///< nodes visited, inner and leaf
-  std::uint64_t leaf_visits = 0;       ///< of those, leaves
-  std::uint64_t primitive_tests = 0;   ///< ray/triangle tests; each lane that holds a triangle counts one
-  std::uint64_t double_tests = 0;      ///< of those, undecided in float
-  std::uint64_t exact_tests = 0;       ///< of those, undecided in double
-  std::uint64_t far_rays = 0;          ///< walked with double plane times, or tested against everything
+  std::uint64_t invalid_rays = 0;     ///< answered "no hit" without a walk (see Ray)
+  std::uint64_t node_tests = 0;       ///< nodes visited, inner and leaf
+  std::uint64_t leaf_visits = 0;      ///< of those, leaves
+  std::uint64_t primitive_tests = 0;  ///< ray/triangle tests; each lane that holds a triangle counts one
+  std::uint64_t double_tests = 0;     ///< of those, undecided in float
+  std::uint64_t exact_tests = 0;      ///< of those, undecided in double
+  std::uint64_t far_rays = 0;         ///< walked with double plane times, or tested against everything
 
   RayCounts& operator+=(const RayCounts& o) noexcept {
     rays += o.rays;
@@ -38,24 +38,24 @@ struct OcclusionCounts {
 
 /// What Scene::commit made and what it cost.
 struct BuildStats {
-  std::uint64_t triangles = 0;             ///< added
-  std::uint64_t dropped_nonfinite = 0;     ///< with a NaN or infinite vertex
-  std::uint64_t dropped_degenerate = 0;    ///< with no area (decided exactly)
-  std::uint64_t nodes = 0;                 ///< inner and leaf
+  std::uint64_t triangles = 0;           ///< added
+  std::uint64_t dropped_nonfinite = 0;   ///< with a NaN or infinite vertex
+  std::uint64_t dropped_degenerate = 0;  ///< with no area (decided exactly)
+  std::uint64_t nodes = 0;               ///< inner and leaf
   std::uint64_t leaves = 0;
   std::uint64_t empty_leaves = 0;
-  std::uint64_t references = 0;            ///< triangles summed over the leaves
-  std::uint64_t largest_leaf = 0;          ///< triangles
-  std::uint32_t depth = 0;                 ///< inner nodes above the deepest leaf
-  double sah_cost = 0;                     ///< expected cost of a line through the scene box, in node steps
+  std::uint64_t references = 0;    ///< triangles summed over the leaves
+  std::uint64_t largest_leaf = 0;  ///< triangles
+  std::uint32_t depth = 0;         ///< inner nodes above the deepest leaf
+  double sah_cost = 0;             ///< expected cost of a line through the scene box, in node steps
   std::uint64_t node_bytes = 0;
   std::uint64_t leaf_bytes = 0;
-  std::uint64_t triangle_bytes = 0;        ///< the exact vertices
-  std::uint64_t bytes = 0;                 ///< all that stays after commit
-  double seconds_prepare = 0;              ///< checking, scaling, bounds, first sort
-  double seconds_tree = 0;                 ///< choosing and making splits
-  double seconds_leaves = 0;               ///< packing leaf blocks
-  double seconds = 0;                      ///< all of commit
+  std::uint64_t triangle_bytes = 0;  ///< the exact vertices
+  std::uint64_t bytes = 0;           ///< all that stays after commit
+  double seconds_prepare = 0;        ///< checking, scaling, bounds, first sort
+  double seconds_tree = 0;           ///< choosing and making splits
+  double seconds_leaves = 0;         ///< packing leaf blocks
+  double seconds = 0;                ///< all of commit
 };
 
 }  // namespace umbrix

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every triangle, no tree, no float filter: the truth that the other kernels are measured against.
+
+#include "kernels/brute.h"
+
+#include "kernels/queries-inl.h"
+#include "kernels/ray_class.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct Brute {
+  template <class Counts>
+  static bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts) {
+    if (!is_valid(ray)) {
+      counts.invalid_ray();
+      return false;
+    }
+    for (std::size_t i = 0; i < scene.kept_count; ++i) {
+      counts.primitives(1);
+      if (blocks(scene, filter, ray, scene.kept[i], counts)) return true;
+    }
+    return false;
+  }
+
+  template <class Counts>
+  static void closest(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest, Counts& counts) {
+    if (!is_valid(ray)) {
+      counts.invalid_ray();
+      return;
+    }
+    for (std::size_t i = 0; i < scene.kept_count; ++i) {
+      counts.primitives(1);
+      nearest.offer(scene, filter, ray, scene.kept[i], counts);
+    }
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+
+const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes"},
+                             &HWY_NAMESPACE::occluded_each<HWY_NAMESPACE::Brute>,
+                             &HWY_NAMESPACE::occluded_each_counted<HWY_NAMESPACE::Brute>,
+                             &HWY_NAMESPACE::closest_each<HWY_NAMESPACE::Brute>,
+                             &HWY_NAMESPACE::closest_each_counted<HWY_NAMESPACE::Brute>};
+
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();

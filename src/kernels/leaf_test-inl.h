@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// One ray against the triangles of a leaf, eight at a time: Moeller & Trumbore (1997) with the origin moved to a
+// vertex, filtered after Shewchuk (1997). For s = o - v0 and D, S, Eb bounding |d|, |s| and the edges,
+//   E  = k D Eb (2 S + Eb)          bounds the errors of det, U, V and W,
+//   EA = k Eb^2 (S + |t| D)         bounds that of T - t det,          k = 10.5 * 2^-24,
+// since a 3x3 permanent is at most 2/sqrt(3) times the product of the norms. What this bound of the block leaves open
+// gets bounds of its own (permanents), then double, then integers. Contraction to fma only removes roundings.
+
+#if defined(UMBRIX_KERNELS_LEAF_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_LEAF_TEST_INL_H_
+#undef UMBRIX_KERNELS_LEAF_TEST_INL_H_
+#else
+#define UMBRIX_KERNELS_LEAF_TEST_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "kernels/scene_view.h"
+#include "kernels/walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Lanes8 = hn::CappedTag<float, kBlockLanes>;
+using FloatVec = hn::Vec<Lanes8>;
+using FloatMask = hn::Mask<Lanes8>;
+
+inline constexpr float kUnit = 0x1p-24f;
+inline constexpr float kNormBound = 10.5f * kUnit;
+inline constexpr float kPermanentBound = 9.5f * kUnit;
+inline constexpr float kMissFactor = -2.0002f;
+// What may be lost to underflow and flush-to-zero in the tree's units, many times over.
+inline constexpr float kTinyEdge = 0x1p-90f;
+inline constexpr float kTinyTime = 0x1p-80f;
+
+/// Lanes as bits, of a whole block.
+struct LaneBits {
+  std::uint32_t hit = 0;  ///< surely hit
+  std::uint32_t undecided = 0;
+};
+
+inline std::uint32_t bits_of(FloatMask mask) {
+  alignas(8) std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(Lanes8(), mask, bytes);
+  return bytes[0];
+}
+
+/// The ray's values in every lane, and the bounds that depend on the ray alone.
+class LeafTest {
+ public:
+  explicit LeafTest(const WalkRay& ray)
+      : ray_(ray), edge_factor_(kNormBound * ray.length), start_reach_(std::abs(ray.tmin) * ray.length) {
+    const Lanes8 f;
+    for (int k = 0; k < 3; ++k) {
+      origin_[k] = hn::Set(f, ray.origin[k]);
+      direction_[k] = hn::Set(f, ray.direction[k]);
+    }
+  }
+
+  /// Tests a block of a leaf that the ray leaves at `t1`, for hits before `tmax`.
+  HWY_INLINE LaneBits operator()(const Block& block, float t1, float tmax) const {
+    LaneBits result;
+    const Lanes8 f;
+    const float reach = std::abs(t1) * ray_.length + block.reach;
+    const float error = edge_factor_ * block.edge_bound * (2 * reach + block.edge_bound) + kTinyEdge;
+    const auto reject_below = hn::Set(f, kMissFactor * error);
+    for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const Values x = evaluate(block, lane);
+      const auto smallest = hn::Min(hn::Min(x.u, x.v), x.w);
+      const auto open = hn::Ge(smallest, reject_below);
+      if (HWY_LIKELY(hn::AllFalse(f, open))) continue;
+      decide_times(block, lane, x, smallest, open, error, reach, tmax, result);
+    }
+    const std::uint32_t in_use = (1u << block.count) - 1;
+    result.hit &= in_use;
+    result.undecided &= in_use;
+    return result;
+  }
+
+  /// Sharper bounds, lane by lane, for what the block's bound left open. Only `lanes` are looked at.
+  HWY_NOINLINE LaneBits with_permanents(const Block& block, std::uint32_t lanes) const {
+    LaneBits result;
+    const Lanes8 f;
+    for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f)))
+      decide_by_permanents(block, lane, result);
+    result.hit &= lanes;
+    result.undecided &= lanes;
+    return result;
+  }
+
+ private:
+  /// det without its sign, and U, V, W and T with that sign taken out. T is completed on demand.
+  struct Values {
+    FloatVec det, u, v, w;
+    FloatVec sign;
+    FloatVec q[3];
+  };
+
+  static FloatVec row(const float (&rows)[3][kBlockLanes], int k, std::uint32_t lane) {
+    return hn::Load(Lanes8(), rows[k] + lane);
+  }
+  static FloatVec dot(FloatVec ax, FloatVec ay, FloatVec az, FloatVec bx, FloatVec by, FloatVec bz) {
+    return hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx)));
+  }
+  static FloatVec cross_term(FloatVec a, FloatVec b, FloatVec c, FloatVec d) { return hn::MulSub(a, b, hn::Mul(c, d)); }
+
+  HWY_INLINE Values evaluate(const Block& block, std::uint32_t lane) const {
+    const Lanes8 f;
+    const auto e1x = row(block.e1, 0, lane), e1y = row(block.e1, 1, lane), e1z = row(block.e1, 2, lane);
+    const auto e2x = row(block.e2, 0, lane), e2y = row(block.e2, 1, lane), e2z = row(block.e2, 2, lane);
+    const auto sx = hn::Sub(origin_[0], row(block.v0, 0, lane));
+    const auto sy = hn::Sub(origin_[1], row(block.v0, 1, lane));
+    const auto sz = hn::Sub(origin_[2], row(block.v0, 2, lane));
+    const auto px = cross_term(direction_[1], e2z, direction_[2], e2y);
+    const auto py = cross_term(direction_[2], e2x, direction_[0], e2z);
+    const auto pz = cross_term(direction_[0], e2y, direction_[1], e2x);
+    const auto det = dot(e1x, e1y, e1z, px, py, pz);
+    Values x;
+    x.q[0] = cross_term(sy, e1z, sz, e1y);
+    x.q[1] = cross_term(sz, e1x, sx, e1z);
+    x.q[2] = cross_term(sx, e1y, sy, e1x);
+    x.sign = hn::And(det, hn::Set(f, -0.0f));
+    x.det = hn::Abs(det);
+    x.u = hn::Xor(dot(sx, sy, sz, px, py, pz), x.sign);
+    x.v = hn::Xor(dot(direction_[0], direction_[1], direction_[2], x.q[0], x.q[1], x.q[2]), x.sign);
+    x.w = hn::Sub(hn::Sub(x.det, x.u), x.v);
+    return x;
+  }
+
+  HWY_INLINE FloatVec time_numerator(const Block& block, std::uint32_t lane, const Values& x) const {
+    return hn::Xor(dot(row(block.e2, 0, lane), row(block.e2, 1, lane), row(block.e2, 2, lane), x.q[0], x.q[1], x.q[2]),
+                   x.sign);
+  }
+
+  HWY_INLINE void decide_times(const Block& block, std::uint32_t lane, const Values& x, FloatVec smallest,
+                               FloatMask open, float error, float reach, float tmax, LaneBits& result) const {
+    const Lanes8 f;
+    const float square = kNormBound * block.edge_bound * block.edge_bound;
+    const float start_error = square * (reach + start_reach_) + kTinyTime;
+    const float end_error = square * (reach + std::abs(tmax) * ray_.length) + kTinyTime;
+    const auto t = time_numerator(block, lane, x);
+    const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, ray_.tmin), x.det));
+    const auto before_end = hn::Sub(hn::Mul(hn::Set(f, tmax), x.det), t);
+    const auto e = hn::Set(f, error), ea = hn::Set(f, start_error), eb = hn::Set(f, end_error);
+    const auto hit = hn::And(hn::Gt(smallest, e), hn::And(hn::Gt(after_start, ea), hn::Gt(before_end, eb)));
+    const auto outside = hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)));
+    const auto missed = hn::And(hn::Gt(x.det, e), outside);
+    const std::uint32_t hit_bits = bits_of(hit);
+    result.hit |= hit_bits << lane;
+    result.undecided |= (bits_of(hn::AndNot(missed, open)) & ~hit_bits) << lane;
+  }
+
+  static FloatVec abs_dot(FloatVec ax, FloatVec ay, FloatVec az, FloatVec bx, FloatVec by, FloatVec bz) {
+    return dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), bx, by, bz);
+  }
+  static FloatVec abs_cross_term(FloatVec a, FloatVec b, FloatVec c, FloatVec d) {
+    return hn::Add(hn::Abs(hn::Mul(a, b)), hn::Abs(hn::Mul(c, d)));
+  }
+
+  void decide_by_permanents(const Block& block, std::uint32_t lane, LaneBits& result) const {
+    const Lanes8 f;
+    const Values x = evaluate(block, lane);
+    const auto t = time_numerator(block, lane, x);
+    const auto e1x = row(block.e1, 0, lane), e1y = row(block.e1, 1, lane), e1z = row(block.e1, 2, lane);
+    const auto e2x = row(block.e2, 0, lane), e2y = row(block.e2, 1, lane), e2z = row(block.e2, 2, lane);
+    const auto sx = hn::Sub(origin_[0], row(block.v0, 0, lane));
+    const auto sy = hn::Sub(origin_[1], row(block.v0, 1, lane));
+    const auto sz = hn::Sub(origin_[2], row(block.v0, 2, lane));
+    const auto px = abs_cross_term(direction_[1], e2z, direction_[2], e2y);
+    const auto py = abs_cross_term(direction_[2], e2x, direction_[0], e2z);
+    const auto pz = abs_cross_term(direction_[0], e2y, direction_[1], e2x);
+    const auto qx = abs_cross_term(sy, e1z, sz, e1y);
+    const auto qy = abs_cross_term(sz, e1x, sx, e1z);
+    const auto qz = abs_cross_term(sx, e1y, sy, e1x);
+    const auto det = abs_dot(e1x, e1y, e1z, px, py, pz);
+    const auto u = abs_dot(sx, sy, sz, px, py, pz);
+    const auto v = abs_dot(direction_[0], direction_[1], direction_[2], qx, qy, qz);
+    const auto time = abs_dot(e2x, e2y, e2z, qx, qy, qz);
+
+    const auto factor = hn::Set(f, kPermanentBound);
+    const auto e = hn::MulAdd(factor, hn::Add(hn::Add(det, u), v), hn::Set(f, kTinyEdge));
+    const auto ea = hn::MulAdd(factor, hn::MulAdd(hn::Set(f, std::abs(ray_.tmin)), det, time), hn::Set(f, kTinyTime));
+    const auto eb = hn::MulAdd(factor, hn::MulAdd(hn::Set(f, std::abs(ray_.tmax)), det, time), hn::Set(f, kTinyTime));
+    const auto smallest = hn::Min(hn::Min(x.u, x.v), x.w);
+    const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, ray_.tmin), x.det));
+    const auto before_end = hn::Sub(hn::Mul(hn::Set(f, ray_.tmax), x.det), t);
+    const auto hit = hn::And(hn::Gt(smallest, e), hn::And(hn::Gt(after_start, ea), hn::Gt(before_end, eb)));
+    const auto missed =
+        hn::Or(hn::Lt(smallest, hn::Mul(e, hn::Set(f, kMissFactor))),
+               hn::And(hn::Gt(x.det, e), hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)))));
+    result.hit |= bits_of(hit) << lane;
+    result.undecided |= (~(bits_of(hit) | bits_of(missed)) & ((1u << hn::Lanes(f)) - 1)) << lane;
+  }
+
+  const WalkRay& ray_;
+  float edge_factor_;
+  float start_reach_;
+  FloatVec origin_[3];
+  FloatVec direction_[3];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one list of kernels. README.md in this folder says how to add one.
+
+#include <cstring>
+#include <iterator>
+
+#include "kernels/brute.h"
+#include "kernels/kernel.h"
+#include "kernels/standard.h"
+
+namespace umbrix {
+namespace detail {
+namespace {
+
+const Kernel* const kKernels[] = {
+    &kStandardKernel,
+    &kBruteKernel,
+};
+constexpr std::size_t kDefault = 0;
+
+}  // namespace
+
+std::size_t kernel_table_size() noexcept { return std::size(kKernels); }
+
+const Kernel& kernel_at(KernelId id) noexcept {
+  const auto index = static_cast<std::size_t>(id.index);
+  return *kKernels[id.index >= 0 && index < std::size(kKernels) ? index : kDefault];
+}
+
+}  // namespace detail
+
+std::size_t kernel_count() noexcept { return detail::kernel_table_size(); }
+
+const KernelInfo& kernel_info(std::size_t index) noexcept { return detail::kernel_at({static_cast<int>(index)}).info; }
+
+Status find_kernel(const char* name, KernelId& out) {
+  std::string known;
+  for (std::size_t i = 0; i < kernel_count(); ++i) {
+    if (name && std::strcmp(kernel_info(i).name, name) == 0) {
+      out.index = static_cast<int>(i);
+      return {};
+    }
+    known += (i ? ", " : "") + std::string(kernel_info(i).name);
+  }
+  return {StatusCode::invalid_argument, "no kernel named '" + std::string(name ? name : "") + "'; there are: " + known};
+}
+
+}  // namespace umbrix

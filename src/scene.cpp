@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "umbrix/scene.h"
+
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <vector>
+
+#include "core/exact_test.h"
+#include "core/float_mode.h"
+#include "kernels/kernel.h"
+#include "tree/builder.h"
+
+namespace umbrix {
+
+struct Scene::Impl {
+  std::vector<detail::Triangle> triangles;
+  std::vector<std::uint32_t> mesh_of;
+  std::vector<std::uint32_t> kept;
+  std::vector<detail::MeshRecord> meshes;
+  detail::Tree tree;
+  detail::Box bounds;
+  BuildStats stats;
+  detail::SceneView view{};
+  bool committed = false;
+
+  void keep_or_drop(const detail::Triangle& triangle, std::uint32_t id);
+  void make_view();
+};
+
+namespace {
+
+constexpr std::uint64_t kMaxTriangles = 1ull << 29;
+
+Status check(const MeshView& mesh, std::uint64_t triangles_so_far) {
+  if (mesh.triangle_count == 0) return {};
+  if (!mesh.vertices || mesh.vertex_count == 0) return {StatusCode::invalid_argument, "mesh: no vertices"};
+  if (mesh.vertex_stride < 12 || mesh.vertex_stride % 4 != 0)
+    return {StatusCode::invalid_argument, "mesh: vertex_stride must be a multiple of 4 and at least 12"};
+  if (mesh.indices && (mesh.index_stride < 12 || mesh.index_stride % 4 != 0))
+    return {StatusCode::invalid_argument, "mesh: index_stride must be a multiple of 4 and at least 12"};
+  if (reinterpret_cast<std::uintptr_t>(mesh.vertices) % 4 != 0 ||
+      reinterpret_cast<std::uintptr_t>(mesh.indices) % 4 != 0)
+    return {StatusCode::invalid_argument, "mesh: vertices and indices must be aligned to 4 bytes"};
+  if (!mesh.indices && mesh.vertex_count / 3 < mesh.triangle_count)
+    return {StatusCode::invalid_argument, "mesh: fewer than three vertices a triangle"};
+  if (triangles_so_far + mesh.triangle_count > kMaxTriangles)
+    return {StatusCode::resource_limit, "scene: more than 2^29 triangles"};
+  return {};
+}
+
+/// The vertex numbers of one triangle.
+struct Corners {
+  std::uint32_t index[3];
+
+  Corners(const MeshView& mesh, std::size_t triangle) noexcept {
+    const char* const base = reinterpret_cast<const char*>(mesh.indices);
+    for (std::size_t k = 0; k < 3; ++k)
+      index[k] = mesh.indices ? reinterpret_cast<const std::uint32_t*>(base + triangle * mesh.index_stride)[k]
+                              : static_cast<std::uint32_t>(3 * triangle + k);
+  }
+};
+
+detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
+  const float* const p = reinterpret_cast<const float*>(reinterpret_cast<const char*>(mesh.vertices) +
+                                                        static_cast<std::size_t>(index) * mesh.vertex_stride);
+  return {p[0], p[1], p[2]};
+}
+
+bool is_finite(const detail::Triangle& triangle) noexcept {
+  for (const detail::Vec3& v : triangle.v)
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
+  return true;
+}
+
+}  // namespace
+
+Scene::Scene() noexcept = default;
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+void Scene::Impl::keep_or_drop(const detail::Triangle& triangle, std::uint32_t id) {
+  if (!is_finite(triangle)) {
+    ++stats.dropped_nonfinite;
+  } else if (detail::is_degenerate(triangle)) {
+    ++stats.dropped_degenerate;
+  } else {
+    kept.push_back(id);
+    for (const detail::Vec3& v : triangle.v) bounds.extend(v);
+  }
+}
+
+Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
+  try {
+    if (!impl_) impl_ = std::make_unique<Impl>();
+    Impl& s = *impl_;
+    if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
+    if (Status status = check(mesh, s.triangles.size()); !status) return status;
+    for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i)
+      for (const std::uint32_t index : Corners(mesh, i).index)
+        if (index >= mesh.vertex_count)
+          return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
+                                                    std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
+
+    const detail::DefaultFloatMode mode;
+    const auto first = static_cast<std::uint32_t>(s.triangles.size());
+    const auto number = static_cast<std::uint32_t>(s.meshes.size());
+    s.triangles.reserve(first + mesh.triangle_count);
+    s.kept.reserve(s.kept.size() + mesh.triangle_count);
+    s.mesh_of.resize(first + mesh.triangle_count, number);
+    s.meshes.push_back({first, static_cast<std::uint32_t>(mesh.triangle_count), mesh.mask, mesh.opacity});
+    for (std::size_t i = 0; i < mesh.triangle_count; ++i) {
+      const Corners corners(mesh, i);
+      s.triangles.push_back(
+          {{vertex(mesh, corners.index[0]), vertex(mesh, corners.index[1]), vertex(mesh, corners.index[2])}});
+      s.keep_or_drop(s.triangles.back(), first + static_cast<std::uint32_t>(i));
+    }
+    s.stats.triangles += mesh.triangle_count;
+    if (mesh_id) *mesh_id = number;
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::resource_limit, "scene: out of memory while adding a mesh"};
+  }
+}
+
+void Scene::Impl::make_view() {
+  bool all_plain = true;
+  for (const detail::MeshRecord& m : meshes) all_plain &= m.mask != 0 && !m.opacity.opaque;
+  view = {&tree, triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(), all_plain};
+}
+
+Status Scene::commit(const BuildOptions& options) {
+  try {
+    if (!impl_) impl_ = std::make_unique<Impl>();
+    Impl& s = *impl_;
+    if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
+    const auto start = std::chrono::steady_clock::now();
+    s.triangles.shrink_to_fit();
+    s.kept.shrink_to_fit();
+    s.tree = detail::build_tree(s.triangles, s.kept, options.quality, options.executor, s.stats);
+    s.stats.triangle_bytes = s.triangles.size() * sizeof(detail::Triangle);
+    s.stats.bytes = s.stats.node_bytes + s.stats.leaf_bytes + s.stats.triangle_bytes +
+                    (s.kept.size() + s.mesh_of.size()) * sizeof(std::uint32_t) +
+                    s.meshes.size() * sizeof(detail::MeshRecord);
+    s.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    s.make_view();
+    s.committed = true;
+    return {};
+  } catch (const std::bad_alloc&) {
+    impl_.reset();
+    return {StatusCode::resource_limit, "scene: out of memory while building the tree"};
+  } catch (const std::exception& e) {
+    impl_.reset();
+    return {StatusCode::internal, std::string("scene: the executor failed: ") + e.what()};
+  }
+}
+
+bool Scene::occluded(const Ray& ray, const QueryOptions& options) const noexcept {
+  std::uint8_t out = 0;
+  occluded(RaySpan{&ray, 1, sizeof(Ray)}, &out, options);
+  return out != 0;
+}
+
+void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& options) const noexcept {
+  if (!impl_ || !impl_->committed)
+    std::fill(out, out + rays.count, std::uint8_t{0});
+  else
+    detail::kernel_at(options.kernel).occluded(impl_->view, rays, out, options);
+}
+
+void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
+                     const QueryOptions& options) const noexcept {
+  if (!impl_ || !impl_->committed)
+    occluded(rays, out, options);
+  else
+    detail::kernel_at(options.kernel).occluded_counted(impl_->view, rays, out, options, counts);
+}
+
+bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
+  closest(RaySpan{&ray, 1, sizeof(Ray)}, &hit, options);
+  return hit.valid();
+}
+
+void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const noexcept {
+  if (!impl_ || !impl_->committed)
+    std::fill(out, out + rays.count, Hit{});
+  else
+    detail::kernel_at(options.kernel).closest(impl_->view, rays, out, options);
+}
+
+void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {
+  if (!impl_ || !impl_->committed)
+    closest(rays, out, options);
+  else
+    detail::kernel_at(options.kernel).closest_counted(impl_->view, rays, out, options, counts);
+}
+
+const BuildStats& Scene::build_stats() const noexcept {
+  static const BuildStats none;
+  return impl_ && impl_->committed ? impl_->stats : none;
+}
+
+bool Scene::bounds(float lower[3], float upper[3]) const noexcept {
+  const bool any = impl_ && !impl_->kept.empty();
+  for (int k = 0; k < 3; ++k) {
+    lower[k] = any ? impl_->bounds.lower[k] : 0;
+    upper[k] = any ? impl_->bounds.upper[k] : 0;
+  }
+  return any;
+}
+
+}  // namespace umbrix

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tree/builder.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "core/float_mode.h"
+#include "tree/clip.h"
+#include "tree/pack.h"
+#include "tree/splitter.h"
+
+namespace umbrix::detail {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The power of two that brings the largest coordinate into [0.5, 1).
+int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept) {
+  float largest = 0;
+  for (const std::uint32_t id : kept)
+    for (const Vec3& v : triangles[id].v) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return -exponent;
+}
+
+/// Exact, but for coordinates 2^126 times smaller than the largest.
+std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
+  std::vector<Triangle> result(triangles);
+  const double factor = std::ldexp(1.0, exponent);
+  for (Triangle& t : result)
+    for (Vec3& v : t.v) v = Vec3(DVec3(v) * factor);
+  return result;
+}
+
+Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, Tree& tree) {
+  Box bounds;
+  for (const std::uint32_t id : kept)
+    for (const Vec3& v : triangles[id].v) bounds.extend(v);
+  tree.eps = 0x1p-20f * bounds.largest_extent();
+  tree.root = grown(bounds, tree.eps);
+
+  Cell cell;
+  cell.box = tree.root;
+  cell.references.reserve(kept.size());
+  for (const std::uint32_t id : kept) {
+    Box box;
+    for (const Vec3& v : triangles[id].v) box.extend(v);
+    cell.references.push_back({id, grown(box, tree.eps)});
+  }
+  return cell;
+}
+
+SplitOptions split_options(const std::vector<Triangle>& triangles, std::size_t count, BuildQuality quality,
+                           const Executor* executor, const Tree& tree) {
+  SplitOptions options;
+  const bool high = quality == BuildQuality::high;
+  options.context = {triangles.data(), tree.eps, high, high};
+  options.quality = quality;
+  options.executor = executor;
+  // Depth after Wald & Havran (2006, section 5); the cap on references bounds memory on adversarial input.
+  const double depth = 8 + 1.3 * std::log2(static_cast<double>(count));
+  options.max_depth = std::min(kMaxDepth, static_cast<std::uint32_t>(depth));
+  options.max_references = 4 * static_cast<std::uint64_t>(count) + 1'000'000;
+  return options;
+}
+
+}  // namespace
+
+Tree build_tree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, BuildQuality quality,
+                const Executor* executor, BuildStats& stats) {
+  const DefaultFloatMode mode;
+  Tree tree;
+  if (kept.empty()) {
+    tree.nodes.assign(2, Node::leaf(0, 0));
+    return tree;
+  }
+  const auto prepare_start = Clock::now();
+  tree.scale_exponent = scale_exponent(triangles, kept);
+  const std::vector<Triangle> scaled_triangles = scaled(triangles, tree.scale_exponent);
+  Cell root = root_cell(scaled_triangles, kept, tree);
+  const SplitOptions options = split_options(scaled_triangles, kept.size(), quality, executor, tree);
+  if (options.context.keep_events) sort_events(root);
+  stats.seconds_prepare = seconds_since(prepare_start);
+
+  const auto tree_start = Clock::now();
+  UnpackedTree unpacked = split_recursively(std::move(root), options);
+  stats.seconds_tree = seconds_since(tree_start);
+
+  const auto leaves_start = Clock::now();
+  pack_leaves(std::move(unpacked), scaled_triangles, options.cost, executor, tree, stats);
+  stats.seconds_leaves = seconds_since(leaves_start);
+  stats.node_bytes = tree.nodes.size() * sizeof(Node);
+  stats.leaf_bytes = tree.blocks.size() * sizeof(Block);
+  return tree;
+}
+
+}  // namespace umbrix::detail

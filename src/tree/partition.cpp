@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tree/partition.h"
+
+#include <algorithm>
+
+#include "tree/clip.h"
+
+namespace umbrix::detail {
+namespace {
+
+constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+/// One side of a partition while it is filled.
+struct Side {
+  Cell& cell;
+  std::vector<std::uint32_t> index_of;  ///< of a parent's reference that lies wholly on this side, else kNone
+  std::uint32_t first_straddler = 0;
+
+  void add(const Reference& r) { cell.references.push_back(r); }
+  std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(cell.references.size()); }
+};
+
+Box intersection(const Box& a, const Box& b) noexcept {
+  Box result;
+  result.lower = glm::max(a.lower, b.lower);
+  result.upper = glm::min(a.upper, b.upper);
+  return result;
+}
+
+/// Adds the part of a straddling triangle that meets the side's cell, if any does.
+void add_part(const Reference& r, const PartitionContext& context, Side& side) {
+  Box box = intersection(r.box, side.cell.box);
+  if (context.clip) {
+    const Box part = clipped_bounds(context.triangles[r.triangle], side.cell.box, static_cast<double>(context.eps));
+    if (part.empty()) return;
+    box = intersection(box, grown(part, context.eps));
+    if (box.empty()) return;
+  }
+  side.add({r.triangle, box});
+}
+
+void append_events(const Reference& r, std::uint32_t index, int axis, std::vector<Event>& events) {
+  events.push_back(Event::start(r.box.lower[axis], index));
+  events.push_back(Event::end(r.box.upper[axis], index));
+}
+
+/// Keeps the order of the parent's events and merges in those of the straddlers.
+void inherit_events(const std::vector<Event>& parent, int axis, Side& side) {
+  std::vector<Event>& events = side.cell.events[static_cast<std::size_t>(axis)];
+  events.reserve(2 * side.cell.references.size());
+  for (const Event& e : parent) {
+    const std::uint32_t index = side.index_of[e.reference()];
+    if (index == kNone) continue;
+    events.push_back(e.is_start() ? Event::start(e.position, index) : Event::end(e.position, index));
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(events.size());
+  for (std::uint32_t i = side.first_straddler; i < side.size(); ++i)
+    append_events(side.cell.references[i], i, axis, events);
+  std::sort(events.begin() + kept, events.end());
+  std::inplace_merge(events.begin(), events.begin() + kept, events.end());
+}
+
+}  // namespace
+
+void sort_events(Cell& cell) {
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Event>& events = cell.events[static_cast<std::size_t>(axis)];
+    events.reserve(2 * cell.references.size());
+    for (std::uint32_t i = 0; i < cell.references.size(); ++i) append_events(cell.references[i], i, axis, events);
+    std::sort(events.begin(), events.end());
+  }
+}
+
+void partition(Cell& cell, int axis, float plane, const PartitionContext& context, Cell& low, Cell& high) {
+  low.box = high.box = cell.box;
+  low.box.upper[axis] = plane;
+  high.box.lower[axis] = plane;
+  const std::size_t count = cell.references.size();
+  Side sides[2] = {{low, {}, 0}, {high, {}, 0}};
+  if (context.keep_events)
+    for (Side& side : sides) side.index_of.assign(count, kNone);
+
+  // Hand over what lies on one side only, then cut the rest.
+  std::vector<std::uint32_t> straddlers;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Reference& r = cell.references[i];
+    const bool on_low = r.box.lower[axis]<plane, on_high = r.box.upper[axis]> plane;
+    if (on_low && on_high) {
+      straddlers.push_back(i);
+      continue;
+    }
+    Side& side = sides[on_high ? 1 : 0];
+    if (context.keep_events) side.index_of[i] = side.size();
+    side.add(r);
+  }
+  for (Side& side : sides) {
+    side.first_straddler = side.size();
+    for (const std::uint32_t i : straddlers) add_part(cell.references[i], context, side);
+  }
+  if (context.keep_events)
+    for (int k = 0; k < 3; ++k)
+      for (Side& side : sides) inherit_events(cell.events[static_cast<std::size_t>(k)], k, side);
+  cell = {};
+}
+
+}  // namespace umbrix::detail
