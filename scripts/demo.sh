@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds Umbrix and renders scenes/atrium.glb to out/atrium.exr and out/atrium.png.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+scripts/install_packages.sh g++ cmake ninja-build pkg-config libtbb-dev libhwy-dev libglm-dev libboost-dev \
+  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libopenimageio-dev
+
+launcher=$(command -v ccache || true)
+cmake --preset release -DUMBRIX_TESTS=OFF -DUMBRIX_BENCH=OFF -B build/demo -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
+cmake --build build/demo
+
+mkdir -p out
+build/demo/apps/umbrix/umbrix render scenes/atrium.glb -o out/atrium.exr -o out/atrium.png \
+  --width 1280 --height 720 --spp 16 --overwrite --stats out/atrium.json

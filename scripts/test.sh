@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds with warnings as errors and runs all tests; then checks format, builds again with sanitizers and runs the
+# tests again, and lints. Usage: scripts/test.sh [--quick]   (--quick: the first part only)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+quick=${1:-}
+jobs=$(nproc)
+
+scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache clang-format clang-tidy \
+  libtbb-dev libhwy-dev libglm-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev \
+  libtinygltf-dev libopenimageio-dev libembree-dev libgtest-dev
+
+# Configures, builds and tests a preset; keeps ctest's summary for the last lines of the log.
+summaries=()
+check_preset() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" -DUMBRIX_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+  cmake --build --preset "$preset" -j "$jobs"
+  ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error 2>&1 | tee "build/$preset/ctest.log"
+  summaries+=("$preset: $(grep 'tests passed' "build/$preset/ctest.log")")
+}
+
+check_preset release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+
+if [ "$quick" != --quick ]; then
+  mapfile -t sources < <(git ls-files '*.cpp' '*.h')
+  clang-format --dry-run --Werror "${sources[@]}"
+
+  # The judged rays of the heavy tests are fewer here: sanitizers look for faults in the code, not in the answers.
+  UMBRIX_TEST_RAYS=${UMBRIX_TEST_RAYS:-20000} check_preset asan
+
+  printf '%s\n' "${sources[@]}" | grep '^src/.*\.cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release
+fi
+
+printf '%s\n' "${summaries[@]}"
