@@ -18,6 +18,11 @@ function(umbrix_settings target)
   target_compile_options(${target} PRIVATE
     -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow
     $<$<BOOL:${UMBRIX_WERROR}>:-Werror>)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_link_options(${target} PRIVATE -Wl,--version-script=${CMAKE_CURRENT_FUNCTION_LIST_DIR}/exports.map)
+    set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/exports.map)
+  endif()
   if(UMBRIX_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${UMBRIX_SANITIZE} -fno-omit-frame-pointer
       -fno-sanitize-recover=all)

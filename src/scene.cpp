@@ -13,7 +13,8 @@
 
 namespace umbrix {
 
-struct Scene::Impl {
+// Hidden: the class that holds it is exported.
+struct __attribute__((visibility("hidden"))) Scene::Impl {
   std::vector<detail::Triangle> triangles;
   std::vector<std::uint32_t> mesh_of;
   std::vector<std::uint32_t> kept;
