@@ -17,7 +17,8 @@ struct CostModel {
   double empty_factor = 0.8;  ///< for a split that cuts off empty space (Wald & Havran 2006, section 3.2)
 
   double leaf(std::uint64_t triangles) const noexcept {
-    return block * static_cast<double>((triangles + 7) / 8) + triangle * static_cast<double>(triangles);
+    const std::uint64_t blocks = (triangles + 7) / 8;
+    return block * static_cast<double>(blocks) + triangle * static_cast<double>(triangles);
   }
 };
 
