@@ -7,6 +7,7 @@
 #include "core/float_mode.h"
 #include "tree/clip.h"
 #include "tree/pack.h"
+#include "tree/scale.h"
 #include "tree/splitter.h"
 
 namespace umbrix::detail {
@@ -15,25 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// The power of two that brings the largest coordinate into [0.5, 1).
-int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept) {
-  float largest = 0;
-  for (const std::uint32_t id : kept)
-    for (const Vec3& v : triangles[id].v) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  return -exponent;
-}
-
-/// Exact, but for coordinates 2^126 times smaller than the largest.
-std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
-  std::vector<Triangle> result(triangles);
-  const double factor = std::ldexp(1.0, exponent);
-  for (Triangle& t : result)
-    for (Vec3& v : t.v) v = Vec3(DVec3(v) * factor);
-  return result;
-}
 
 Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, Tree& tree) {
   Box bounds;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tree/scale.h"
+
+#include <cmath>
+
+namespace umbrix::detail {
+
+int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept) {
+  float largest = 0;
+  for (const std::uint32_t id : kept)
+    for (const Vec3& v : triangles[id].v) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  return -exponent;
+}
+
+std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
+  std::vector<Triangle> result(triangles);
+  const double factor = std::ldexp(1.0, exponent);
+  for (Triangle& t : result)
+    for (Vec3& v : t.v) v = Vec3(DVec3(v) * factor);
+  return result;
+}
+
+}  // namespace umbrix::detail

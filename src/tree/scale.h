@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/math.h"
+
+namespace umbrix::detail {
+
+/// The exponent of the power of two that brings the largest coordinate of the kept triangles into [0.5, 1).
+int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept);
+
+/// All triangles times 2^exponent: exact, but for coordinates 2^126 times smaller than the largest.
+std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent);
+
+}  // namespace umbrix::detail
