@@ -30,6 +30,14 @@ function layer_of(path) {
   sub(/\/.*/, "", path)
   return path
 }
+# Whether a name that names no layer is a file beside the one that includes it, or above it.
+function is_near(file, name,    line, found) {
+  while (!found && sub(/\/[^\/]*$/, "", file)) {
+    found = (getline line < (file "/" name)) >= 0
+    close(file "/" name)
+  }
+  return found
+}
 BEGIN {
   count = split(rules, rows, "\n")
   for (i = 1; i <= count; i++) {
@@ -55,7 +63,7 @@ FNR == 1 {
   includes++
   wanted = layer_of(name)
   if (wanted in known) allowed = (layer, wanted) in inside
-  else allowed = (layer, wanted) in outside
+  else allowed = (layer, wanted) in outside || is_near(FILENAME, name)
   if (!allowed) { print FILENAME ":" FNR ": " layer " must not include " name; bad++ }
 }
 END {
