@@ -25,13 +25,13 @@ check_preset() {
 check_preset release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
 if [ "$quick" != --quick ]; then
-  mapfile -t sources < <(git ls-files '*.cpp' '*.h')
+  mapfile -t sources < <(find apps bench include scenes src tests -name '*.cpp' -o -name '*.h' | sort)
   clang-format --dry-run --Werror "${sources[@]}"
 
   # The judged rays of the heavy tests are fewer here: sanitizers look for faults in the code, not in the answers.
   UMBRIX_TEST_RAYS=${UMBRIX_TEST_RAYS:-20000} check_preset asan
 
-  printf '%s\n' "${sources[@]}" | grep '^src/.*\.cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release
+  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release
 fi
 
 printf '%s\n' "${summaries[@]}"
