@@ -23,7 +23,6 @@ install(DIRECTORY include/umbrix DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONE
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT umbrix_core)
 
 if(UMBRIX_IO)
-  set_target_properties(umbrix_io PROPERTIES EXPORT_NAME io)
   umbrix_install_library(umbrix_io io)
   install(DIRECTORY include/umbrix/io DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/umbrix COMPONENT umbrix_io)
 endif()
