@@ -11,6 +11,5 @@ launcher=$(command -v ccache || true)
 cmake --preset release -DUMBRIX_TESTS=OFF -DUMBRIX_BENCH=OFF -B build/demo -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
 cmake --build build/demo
 
-mkdir -p out
 build/demo/apps/umbrix/umbrix render scenes/atrium.glb -o out/atrium.exr -o out/atrium.png \
-  --width 1280 --height 720 --spp 16 --overwrite --stats out/atrium.json
+  --size 1280x720 --spp 16 --create-dir --overwrite
