@@ -167,7 +167,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& option
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, std::uint8_t{0});
   else
-    detail::kernel_at(options.kernel).occluded(impl_->view, rays, out, options);
+    detail::kernel_at(options.kernel).entry_points().occluded(impl_->view, rays, out, options);
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
@@ -175,7 +175,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
   if (!impl_ || !impl_->committed)
     occluded(rays, out, options);
   else
-    detail::kernel_at(options.kernel).occluded_counted(impl_->view, rays, out, options, counts);
+    detail::kernel_at(options.kernel).entry_points().occluded_counted(impl_->view, rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -187,14 +187,14 @@ void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const n
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, Hit{});
   else
-    detail::kernel_at(options.kernel).closest(impl_->view, rays, out, options);
+    detail::kernel_at(options.kernel).entry_points().closest(impl_->view, rays, out, options);
 }
 
 void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {
   if (!impl_ || !impl_->committed)
     closest(rays, out, options);
   else
-    detail::kernel_at(options.kernel).closest_counted(impl_->view, rays, out, options, counts);
+    detail::kernel_at(options.kernel).entry_points().closest_counted(impl_->view, rays, out, options, counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every triangle, no tree, no float filter: the truth that the other kernels are measured against.
 
-#include "kernels/brute.h"
-
 #include "kernels/queries-inl.h"
 #include "kernels/ray_class.h"
 
@@ -41,11 +39,8 @@ struct Brute {
 }  // namespace
 }  // namespace HWY_NAMESPACE
 
-const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes"},
-                             &HWY_NAMESPACE::occluded_each<HWY_NAMESPACE::Brute>,
-                             &HWY_NAMESPACE::occluded_each_counted<HWY_NAMESPACE::Brute>,
-                             &HWY_NAMESPACE::closest_each<HWY_NAMESPACE::Brute>,
-                             &HWY_NAMESPACE::closest_each_counted<HWY_NAMESPACE::Brute>};
+extern const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes"},
+                                    &HWY_NAMESPACE::entry_points<HWY_NAMESPACE::Brute>};
 
 }  // namespace umbrix::detail
 HWY_AFTER_NAMESPACE();

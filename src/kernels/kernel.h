@@ -6,13 +6,18 @@
 
 namespace umbrix::detail {
 
-/// A kernel's entry points: each query uncounted and counted. All kernels give the same answers.
-struct Kernel {
-  KernelInfo info;
+/// A kernel's queries for one instruction set, uncounted and counted.
+struct EntryPoints {
   void (*occluded)(const SceneView&, RaySpan, std::uint8_t* out, const QueryOptions&);
   void (*occluded_counted)(const SceneView&, RaySpan, std::uint8_t* out, const QueryOptions&, OcclusionCounts&);
   void (*closest)(const SceneView&, RaySpan, Hit* out, const QueryOptions&);
   void (*closest_counted)(const SceneView&, RaySpan, Hit* out, const QueryOptions&, RayCounts&);
+};
+
+/// A way to walk the scene. All kernels give the same answers.
+struct Kernel {
+  KernelInfo info;
+  const EntryPoints& (*entry_points)();  ///< those of the instruction set in use
 };
 
 /// The table of kernels, and the place of the default one.

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/counts.h"
+#include "kernels/kernel.h"
 #include "kernels/scene_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -77,6 +78,13 @@ void closest_each_counted(const SceneView& scene, RaySpan rays, Hit* out, const 
     out[i] = to_hit(scene, nearest);
     counts += each.counts;
   }
+}
+
+template <class K>
+const EntryPoints& entry_points() {
+  static constexpr EntryPoints kEntryPoints = {&occluded_each<K>, &occluded_each_counted<K>, &closest_each<K>,
+                                               &closest_each_counted<K>};
+  return kEntryPoints;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,7 +4,6 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/standard.cpp"
-#include "kernels/standard.h"
 
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
@@ -113,20 +112,7 @@ struct Standard {
   }
 };
 
-void standard_occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-  occluded_each<Standard>(scene, rays, out, options);
-}
-void standard_occluded_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options,
-                               OcclusionCounts& counts) {
-  occluded_each_counted<Standard>(scene, rays, out, options, counts);
-}
-void standard_closest(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
-  closest_each<Standard>(scene, rays, out, options);
-}
-void standard_closest_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,
-                              RayCounts& counts) {
-  closest_each_counted<Standard>(scene, rays, out, options, counts);
-}
+const EntryPoints& standard_entry_points() { return entry_points<Standard>(); }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -137,27 +123,13 @@ HWY_AFTER_NAMESPACE();
 namespace umbrix::detail {
 namespace {
 
-HWY_EXPORT(standard_occluded);
-HWY_EXPORT(standard_occluded_counted);
-HWY_EXPORT(standard_closest);
-HWY_EXPORT(standard_closest_counted);
+HWY_EXPORT(standard_entry_points);
 
 }  // namespace
 
-const Kernel kStandardKernel = {
+extern const Kernel kStandardKernel = {
     {"standard", "stack walk from the root, near child first; the default for single rays"},
-    [](const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-      HWY_DYNAMIC_DISPATCH(standard_occluded)(scene, rays, out, options);
-    },
-    [](const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options, OcclusionCounts& counts) {
-      HWY_DYNAMIC_DISPATCH(standard_occluded_counted)(scene, rays, out, options, counts);
-    },
-    [](const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
-      HWY_DYNAMIC_DISPATCH(standard_closest)(scene, rays, out, options);
-    },
-    [](const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options, RayCounts& counts) {
-      HWY_DYNAMIC_DISPATCH(standard_closest_counted)(scene, rays, out, options, counts);
-    }};
+    []() -> const EntryPoints& { return HWY_DYNAMIC_DISPATCH(standard_entry_points)(); }};
 
 }  // namespace umbrix::detail
 #endif

@@ -4,18 +4,23 @@
 #include <cstring>
 #include <iterator>
 
-#include "kernels/brute.h"
 #include "kernels/kernel.h"
-#include "kernels/standard.h"
+
+// In the order shown to users; the first is the default.
+#define UMBRIX_KERNELS(KERNEL) \
+  KERNEL(kStandardKernel)      \
+  KERNEL(kBruteKernel)
 
 namespace umbrix {
 namespace detail {
+
+#define UMBRIX_DECLARE_KERNEL(name) extern const Kernel name;
+UMBRIX_KERNELS(UMBRIX_DECLARE_KERNEL)
+
 namespace {
 
-const Kernel* const kKernels[] = {
-    &kStandardKernel,
-    &kBruteKernel,
-};
+#define UMBRIX_LIST_KERNEL(name) &name,
+const Kernel* const kKernels[] = {UMBRIX_KERNELS(UMBRIX_LIST_KERNEL)};
 constexpr std::size_t kDefault = 0;
 
 }  // namespace
