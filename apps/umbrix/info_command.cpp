@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "exit_code.h"
+#include "message.h"
+#include "render/render.h"
+#include "render/world.h"
+
+namespace umbrix::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The box of all placed vertices; JSON null if there are none.
+Json bounds(const std::vector<render::WorldMesh>& meshes) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  io::Float3 lower = {kInfinity, kInfinity, kInfinity}, upper = {-kInfinity, -kInfinity, -kInfinity};
+  for (const render::WorldMesh& mesh : meshes) {
+    for (const io::Float3& position : mesh.positions) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        lower[axis] = std::min(lower[axis], position[axis]);
+        upper[axis] = std::max(upper[axis], position[axis]);
+      }
+    }
+  }
+  if (!(lower[0] <= upper[0])) return nullptr;
+  return {{"lower", lower}, {"upper", upper}};
+}
+
+Json lights(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (const io::Light& light : scene.lights) {
+    Json entry = {{"name", light.name},
+                  {"type", render::light_type_name(light.type)},
+                  {"color", light.color},
+                  {"intensity", light.intensity}};
+    if (light.type != io::LightType::directional) entry["position"] = light.position;
+    if (light.type != io::LightType::point) entry["direction"] = light.direction;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+Json cameras(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (const io::Camera& camera : scene.cameras) {
+    const bool perspective = camera.type == io::CameraType::perspective;
+    const io::Transform& m = camera.to_world;
+    list.push_back({{"name", camera.name},
+                    {"type", perspective ? "perspective" : "orthographic"},
+                    {"position", {m[0][3], m[1][3], m[2][3]}}});
+  }
+  return list;
+}
+
+/// All that is told, in the order in which it is told.
+Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& meshes,
+              const std::vector<std::string>& notes) {
+  std::uint64_t stored = 0;
+  for (const io::Mesh& mesh : scene.meshes) stored += mesh.triangles.size();
+  std::vector<std::string> warnings = scene.warnings;
+  warnings.insert(warnings.end(), notes.begin(), notes.end());
+  return {{"file", scene.path},
+          {"generator", scene.generator},
+          {"meshes", scene.meshes.size()},
+          {"instances", scene.instances.size()},
+          {"triangles", scene.instanced_triangles()},
+          {"stored_triangles", stored},
+          {"materials", scene.materials.size()},
+          {"textures", scene.textures},
+          {"animations", scene.animations},
+          {"bounds", bounds(meshes)},
+          {"cameras", cameras(scene)},
+          {"lights", lights(scene)},
+          {"extensions_used", scene.extensions_used},
+          {"ignored", scene.ignored},
+          {"warnings", warnings}};
+}
+
+/// One line for a plain value, one for each element of a list.
+void print_table(const Json& description) {
+  for (const auto& [key, value] : description.items()) {
+    const auto text = [](const Json& v) {
+      return printable(v.is_string() ? v.get<std::string>() : v.dump(-1, ' ', false, Json::error_handler_t::replace));
+    };
+    if (!value.is_array()) {
+      fmt::print("{:18}{}\n", key, text(value));
+      continue;
+    }
+    fmt::print("{:18}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
+    for (const Json& element : value) fmt::print("{:18}  {}\n", "", text(element));
+  }
+}
+
+int run(const std::string& path, bool json) {
+  io::SceneFile scene;
+  if (Status status = io::load_scene(path, scene); !status) return report_status(status);
+  std::vector<render::WorldMesh> meshes;
+  std::vector<std::string> notes;
+  if (Status status = render::flatten(scene, meshes, notes); !status) return report_status(status);
+  const Json description = describe(scene, meshes, notes);
+  if (json) {
+    // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
+    fmt::print("{}\n", description.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_table(description);
+  }
+  return kComplete;
+}
+
+}  // namespace
+
+Command add_info_command(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand("info", "Tell what is in a scene, and what of it is ignored");
+  const auto path = std::make_shared<std::string>();
+  const auto json = std::make_shared<bool>(false);
+  parser->add_option("scene", *path, "A glTF 2.0 file, .gltf or .glb")->required()->type_name("SCENE");
+  parser->add_flag("--json", *json, "For programs");
+  return {parser, [path, json] { return run(*path, *json); }};
+}
+
+}  // namespace umbrix::app

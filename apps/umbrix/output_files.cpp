@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace umbrix::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+Status failed(const std::string& path, const std::string& reason) {
+  return {StatusCode::output_failed, fmt::format("{}: {}", path, reason)};
+}
+
+fs::path folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+Status check_stats_file(const RenderArguments& a) {
+  std::error_code error;
+  if (fs::is_directory(a.stats, error)) return failed(a.stats, "is a folder");
+  if (fs::exists(a.stats, error) && !a.write.overwrite)
+    return failed(a.stats, "exists (use --overwrite to replace it)");
+  if (!fs::is_directory(folder_of(a.stats), error)) return failed(a.stats, "its folder does not exist");
+  if (access(folder_of(a.stats).c_str(), W_OK) != 0) return failed(a.stats, "its folder cannot be written to");
+  return {};
+}
+
+std::vector<std::string> report_files(const RenderArguments& a) {
+  if (a.stats.empty() || a.stats == "-") return {};
+  return {a.stats};
+}
+
+}  // namespace
+
+Status check_outputs(const RenderArguments& a) {
+  std::set<std::string> seen;
+  std::error_code error;
+  for (const std::vector<std::string>& list : {a.outputs, report_files(a)}) {
+    for (const std::string& path : list) {
+      if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
+        return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
+      }
+      for (const std::string& input : {a.scene, a.setup}) {
+        if (fs::equivalent(path, input, error)) return failed(path, "is an input of this command");
+      }
+    }
+  }
+  const auto is_exr = [](const std::string& path) { return fs::path(path).extension() == ".exr"; };
+  if (!a.aovs.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
+    return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};
+  }
+  for (const std::string& path : a.outputs) {
+    if (Status status = io::check_output(path, a.write); !status) return status;
+  }
+  return report_files(a).empty() ? Status() : check_stats_file(a);
+}
+
+Status create_output_folders(const RenderArguments& a) {
+  for (const std::vector<std::string>& list : {a.outputs, report_files(a)}) {
+    for (const std::string& path : list) {
+      std::error_code error;
+      fs::create_directories(folder_of(path), error);
+      if (error) return failed(path, fmt::format("cannot make its folder: {}", error.message()));
+    }
+  }
+  return {};
+}
+
+}  // namespace umbrix::app

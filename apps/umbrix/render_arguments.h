@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "progress.h"
+#include "render/render.h"
+#include "umbrix/io/image_file.h"
+#include "umbrix/scene.h"
+
+namespace umbrix::app {
+
+struct Size {
+  int width = 0, height = 0;
+};
+
+/// The command line of `umbrix render`, checked for itself: numbers in range, names known.
+struct RenderArguments {
+  std::string scene;
+  std::vector<std::string> outputs;
+  std::string setup;         ///< empty: none
+  std::string camera;        ///< name or number; empty: the first, or the setup's
+  std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
+  std::optional<render::Crop> crop;
+  std::uint32_t samples = 1;
+  std::uint64_t seed = 0;
+  std::vector<std::string> aovs;
+  io::WriteOptions write;  ///< exposure, tone map, pixel type, overwrite
+  KernelId kernel;
+  std::string kernel_name = "auto";
+  std::string simd_target;  ///< empty: the best
+  BuildQuality build_quality = BuildQuality::high;
+  int threads = 0;  ///< 0: all that are allowed
+  bool create_folders = false;
+  bool dry_run = false;
+  bool quiet = false;
+  bool verbose = false;
+  ProgressStyle progress = ProgressStyle::automatic;
+  std::string stats;  ///< file, "-" for stdout, or empty
+};
+
+/// Adds all options to the sub-command; parsing fills `arguments`.
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+}  // namespace umbrix::app

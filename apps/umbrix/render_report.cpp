@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "umbrix/version.h"
+
+namespace umbrix::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+double mega(std::uint64_t n) { return static_cast<double>(n) * 1e-6; }
+
+const char* simd_target(const RenderArguments& a) {
+  return a.simd_target.empty() ? simd_target_name(0) : a.simd_target.c_str();
+}
+
+Json work(const RayCounts& counts) {
+  const auto rays = static_cast<double>(counts.rays);
+  return {{"rays", counts.rays},
+          {"node_tests_per_ray", ratio(static_cast<double>(counts.node_tests), rays)},
+          {"primitive_tests_per_ray", ratio(static_cast<double>(counts.primitive_tests), rays)},
+          {"leaf_visits_per_ray", ratio(static_cast<double>(counts.leaf_visits), rays)},
+          {"double_tests", counts.double_tests},
+          {"exact_tests", counts.exact_tests},
+          {"far_rays", counts.far_rays}};
+}
+
+Json shadow_rays(const render::LightStats& light) {
+  return {{"rays", light.rays()},
+          {"occluded", work(light.counts.occluded)},
+          {"unoccluded", work(light.counts.unoccluded)},
+          {"skipped",
+           {{"surface_faces_away", light.skipped_behind},
+            {"beyond_range", light.skipped_range},
+            {"outside_cone", light.skipped_cone},
+            {"no_power", light.skipped_no_power}}},
+          {"thread_seconds", light.seconds},
+          {"mrays_per_second_per_thread", ratio(mega(light.rays()), light.seconds)}};
+}
+
+Json build(const BuildStats& b) {
+  return {{"triangles", b.triangles},
+          {"dropped_nonfinite", b.dropped_nonfinite},
+          {"dropped_degenerate", b.dropped_degenerate},
+          {"nodes", b.nodes},
+          {"leaves", b.leaves},
+          {"empty_leaves", b.empty_leaves},
+          {"references", b.references},
+          {"largest_leaf", b.largest_leaf},
+          {"depth", b.depth},
+          {"sah_cost", b.sah_cost},
+          {"node_bytes", b.node_bytes},
+          {"leaf_bytes", b.leaf_bytes},
+          {"triangle_bytes", b.triangle_bytes},
+          {"bytes", b.bytes},
+          {"seconds_prepare", b.seconds_prepare},
+          {"seconds_tree", b.seconds_tree},
+          {"seconds_leaves", b.seconds_leaves},
+          {"seconds", b.seconds}};
+}
+
+}  // namespace
+
+std::vector<std::string> summary(const RenderReport& r) {
+  const BuildStats& b = r.world.scene.build_stats();
+  const render::LightStats shadow = r.stats.shadow();
+  const std::uint64_t skipped =
+      shadow.skipped_behind + shadow.skipped_range + shadow.skipped_cone + shadow.skipped_no_power;
+  const double share_occluded = 100 * ratio(static_cast<double>(shadow.occluded), static_cast<double>(shadow.rays()));
+  return {fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, r.world.meshes.size(),
+                      r.view.lights.size()),
+          fmt::format("tree    {} nodes, depth {}, {:.1f} MB", b.nodes, b.depth, mega(b.bytes)),
+          fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(r.stats.camera_rays),
+                      ratio(mega(r.stats.camera_rays), r.stats.camera_seconds)),
+          fmt::format("shadow  {:.2f} M rays, {:.0f} % occluded, {:.2f} M rays/s a thread, {:.2f} M skipped",
+                      mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds), mega(skipped)),
+          fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
+                      r.seconds_load, r.seconds_build, r.seconds_render, r.threads, r.seconds_write)};
+}
+
+std::string stats_text(const RenderReport& r) {
+  const render::LightStats shadow = r.stats.shadow();
+  Json lights = Json::array();
+  for (std::size_t i = 0; i < r.view.lights.size(); ++i) {
+    Json light = {{"name", r.view.lights[i].name}, {"type", render::light_type_name(r.view.lights[i].type)}};
+    light.update(shadow_rays(r.stats.lights[i]));
+    lights.push_back(light);
+  }
+  const Json stats = {{"umbrix", version_string()},
+                      {"scene", r.scene.path},
+                      {"outputs", r.arguments.outputs},
+                      {"width", r.width},
+                      {"height", r.height},
+                      {"samples_per_pixel", r.arguments.samples},
+                      {"seed", r.arguments.seed},
+                      {"triangles", r.world.scene.build_stats().triangles},
+                      {"kernel", r.arguments.kernel_name},
+                      {"simd_target", simd_target(r.arguments)},
+                      {"threads", r.threads},
+                      {"seconds",
+                       {{"load", r.seconds_load},
+                        {"build", r.seconds_build},
+                        {"render", r.seconds_render},
+                        {"write", r.seconds_write}}},
+                      {"build", build(r.world.scene.build_stats())},
+                      {"camera",
+                       {{"rays", r.stats.camera_rays},
+                        {"hits", r.stats.camera_hits},
+                        {"thread_seconds", r.stats.camera_seconds},
+                        {"mrays_per_second_per_thread", ratio(mega(r.stats.camera_rays), r.stats.camera_seconds)}}},
+                      {"shadow", shadow_rays(shadow)},
+                      {"lights", lights},
+                      {"mrays_per_second", ratio(mega(r.stats.camera_rays + shadow.rays()), r.seconds_render)},
+                      {"notes", r.world.notes}};
+  // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
+  return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace umbrix::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/aovs/aov.h"
+#include "render/render.h"
+
+namespace umbrix::render {
+
+extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodesAov, kTrianglesAov;
+
+namespace {
+
+const Aov* const kTable[] = {&kNormalAov, &kDepthAov, &kAlbedoAov, &kShadowAov, &kNodesAov, &kTrianglesAov};
+
+}  // namespace
+
+const Aov* find_aov(const std::string& name) {
+  for (const Aov* aov : kTable) {
+    if (name == aov->name) return aov;
+  }
+  return nullptr;
+}
+
+std::vector<AovInfo> known_aovs() {
+  std::vector<AovInfo> infos;
+  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary});
+  return infos;
+}
+
+std::vector<const char*> channel_names(const std::vector<const Aov*>& aovs) {
+  std::vector<const char*> names;
+  for (const Aov* aov : aovs) names.insert(names.end(), aov->channels.begin(), aov->channels.end());
+  return names;
+}
+
+}  // namespace umbrix::render

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Direct light from punctual lights: no integral, one direction and one shadow ray for each light. The ray starts at
+// the point, moved off the surface by its own rounding error, and runs to the light at t = 1.
+#include "render/direct_light.h"
+
+#include <chrono>
+
+#include "render/bsdf.h"
+#include "render/lights/light.h"
+
+namespace umbrix::render {
+namespace {
+
+/// Counts why no ray is needed.
+void count_unreached(Unreached reason, LightStats& stats) {
+  stats.skipped_range += reason == Unreached::beyond_range;
+  stats.skipped_cone += reason == Unreached::outside_cone;
+  stats.skipped_no_power += reason == Unreached::no_power;
+}
+
+/// From the surface to the light; to the light's own place, not along a rounded direction of unit length.
+Ray shadow_ray(const Surface& surface, const Arrival& arrival) {
+  float normal[3], toward[3];
+  store(surface.geometric_normal, normal);
+  store(glm::normalize(arrival.to_light), toward);
+  Ray ray;
+  offset_origin(surface.point, surface.point_error, normal, toward, ray.origin);
+  const Vec3 point(surface.point[0], surface.point[1], surface.point[2]);
+  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
+  const bool has_place = arrival.tmax == 1;
+  store(has_place ? arrival.to_light + (point - origin) : arrival.to_light, ray.direction);
+  ray.tmin = 0;
+  ray.tmax = arrival.tmax;
+  return ray;
+}
+
+}  // namespace
+
+void DirectLight::add(const io::Light& light, const std::vector<Surface>& surfaces, std::vector<CameraSample>& samples,
+                      LightStats& stats) {
+  gather(light, surfaces, samples, stats);
+  trace(samples, stats);
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    CameraSample& sample = samples[pending_[i].sample];
+    ++sample.shadow_rays;
+    if (occluded_[i]) continue;
+    ++sample.unoccluded;
+    sample.radiance += pending_[i].radiance;
+  }
+}
+
+void DirectLight::gather(const io::Light& light, const std::vector<Surface>& surfaces,
+                         std::vector<CameraSample>& samples, LightStats& stats) {
+  rays_.clear();
+  skip_.clear();
+  pending_.clear();
+  const LightKind& kind = light_kind(light.type);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!samples[i].hit) continue;
+    const Surface& surface = surfaces[i];
+
+    // Spend no ray where the light cannot reach, or where none of its light would be seen.
+    const Arrival arrival = kind.arrive(light, Vec3(surface.point[0], surface.point[1], surface.point[2]));
+    if (arrival.unreached != Unreached::no) {
+      count_unreached(arrival.unreached, stats);
+      continue;
+    }
+    const Vec3 wi = glm::normalize(arrival.to_light);
+    const double cosine = glm::dot(surface.shading_normal, wi);
+    if (glm::dot(surface.geometric_normal, wi) <= 0 || cosine <= 0) {
+      ++stats.skipped_behind;
+      continue;
+    }
+    const Rgb bsdf = evaluate_bsdf(*surface.material, surface.shading_normal, surface.to_viewer, wi);
+    const Rgb radiance = bsdf * arrival.irradiance * cosine;
+    if (radiance == Rgb(0)) {
+      ++stats.skipped_no_power;
+      continue;
+    }
+    rays_.push_back(shadow_ray(surface, arrival));
+    skip_.push_back(surface.primitive);
+    pending_.push_back({i, radiance});
+  }
+}
+
+void DirectLight::trace(std::vector<CameraSample>& samples, LightStats& stats) {
+  occluded_.resize(rays_.size());
+  QueryOptions options;
+  options.kernel = query_.kernel;
+  options.skip = skip_.data();
+  const auto start = std::chrono::steady_clock::now();
+  if (query_.count_work_per_ray) {
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      OcclusionCounts counts;
+      options.skip = &skip_[i];
+      world_.scene.occluded({&rays_[i], 1}, &occluded_[i], counts, options);
+      CameraSample& sample = samples[pending_[i].sample];
+      sample.node_tests += counts.occluded.node_tests + counts.unoccluded.node_tests;
+      sample.primitive_tests += counts.occluded.primitive_tests + counts.unoccluded.primitive_tests;
+      stats.counts.occluded += counts.occluded;
+      stats.counts.unoccluded += counts.unoccluded;
+    }
+  } else if (query_.count_work) {
+    world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), stats.counts, options);
+  } else {
+    world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), options);
+  }
+  stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const std::uint8_t answer : occluded_) ++(answer ? stats.occluded : stats.unoccluded);
+}
+
+}  // namespace umbrix::render

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/vec.h"
+#include "umbrix/io/image_file.h"
+
+namespace umbrix::render {
+
+struct Aov;
+
+/// What one camera ray found.
+struct CameraSample {
+  bool hit = false;               ///< met a surface; if not, all below stays as it is
+  Rgb radiance{0};                ///< towards the camera
+  double depth = 0;               ///< along the viewing axis
+  Vec3 normal{0};                 ///< shading normal, world space
+  Rgb albedo{0};                  ///< base colour
+  std::uint32_t shadow_rays = 0;  ///< traced, over all lights
+  std::uint32_t unoccluded = 0;   ///< of those
+  std::uint64_t node_tests = 0;   ///< of those rays, if counted
+  std::uint64_t primitive_tests = 0;
+};
+
+/// A rectangle of pixels.
+struct PixelRect {
+  int x = 0, y = 0, width = 0, height = 0;
+
+  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+/// Gathers the samples of one tile's pixels, in double, and writes each pixel once when it is complete. Samples of a
+/// pixel come in a fixed order, so the sums do not depend on the schedule.
+class TileFilm {
+ public:
+  TileFilm(const std::vector<const Aov*>& aovs, const PixelRect& tile);
+
+  /// `pixel` counts the tile's pixels row by row.
+  void add(std::size_t pixel, const CameraSample& sample);
+
+  /// `window` is the part of the frame that `image` holds; the tile lies within it.
+  void write(const PixelRect& window, io::Image& image) const;
+
+ private:
+  const std::vector<const Aov*>& aovs_;
+  PixelRect tile_;
+  std::size_t channels_;
+  std::vector<double> sums_;     ///< channels_ a pixel
+  std::vector<double> weights_;  ///< one a pixel and AOV
+};
+
+}  // namespace umbrix::render

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace umbrix::render {
+
+/// A position within a pixel, each coordinate in [0, 1).
+struct PixelSample {
+  double x = 0;
+  double y = 0;
+};
+
+/// The position of sample `index` of `count` in pixel (x, y): a function of its arguments alone, so pixels do not
+/// depend on tiles, threads or crops. The samples of a pixel are stratified in both axes; a lone one is the centre.
+PixelSample pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t count,
+                         std::uint64_t seed);
+
+}  // namespace umbrix::render

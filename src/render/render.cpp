@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame is cut into tiles, and a tile is rendered one sample a pixel at a time: all camera rays, then all shadow
+// rays of each light. Rays that are traced together so are near each other, and a tile's memory stays small.
+#include "render/render.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "render/aovs/aov.h"
+#include "render/camera.h"
+#include "render/direct_light.h"
+#include "render/pixel_samples.h"
+
+namespace umbrix::render {
+namespace {
+
+constexpr int kTileSize = 32;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// All that the tiles of a frame share; read only.
+struct Frame {
+  const World& world;
+  const View& view;
+  const RenderOptions& options;
+  Camera camera;
+  PixelRect window;  ///< the crop, or all
+  std::vector<const Aov*> aovs;
+  ShadowQuery shadow_query;
+
+  bool cancelled() const { return options.cancel && options.cancel->load(std::memory_order_relaxed); }
+};
+
+/// Renders one tile, a sample a pixel at a time, keeping its memory from sample to sample.
+class TileRenderer {
+ public:
+  explicit TileRenderer(const Frame& frame) : frame_(frame), direct_light_(frame.world, frame.shadow_query) {
+    stats_.lights.resize(frame.view.lights.size());
+  }
+
+  void render(const PixelRect& tile, io::Image& image) {
+    TileFilm film(frame_.aovs, tile);
+    for (std::uint32_t index = 0; index < frame_.options.samples && !frame_.cancelled(); ++index) {
+      look(tile, index);
+      shade();
+      for (std::size_t i = 0; i < frame_.view.lights.size(); ++i) {
+        direct_light_.add(frame_.view.lights[i], surfaces_, samples_, stats_.lights[i]);
+      }
+      for (std::size_t pixel = 0; pixel < tile.size(); ++pixel) film.add(pixel, samples_[pixel]);
+    }
+    film.write(frame_.window, image);
+  }
+
+  const RenderStats& stats() const { return stats_; }
+
+ private:
+  /// Sends one camera ray through each pixel.
+  void look(const PixelRect& tile, std::uint32_t index) {
+    rays_.clear();
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+      for (int x = tile.x; x < tile.x + tile.width; ++x) {
+        const PixelSample at = pixel_sample(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), index,
+                                            frame_.options.samples, frame_.options.seed);
+        rays_.push_back(frame_.camera.ray(x + at.x, y + at.y));
+      }
+    }
+    hits_.assign(rays_.size(), Hit());
+    QueryOptions query;
+    query.kernel = frame_.options.kernel;
+    const auto start = std::chrono::steady_clock::now();
+    frame_.world.scene.closest({rays_.data(), rays_.size()}, hits_.data(), query);
+    stats_.camera_seconds += seconds_since(start);
+    stats_.camera_rays += rays_.size();
+  }
+
+  /// Finds what the rays met, and its own light.
+  void shade() {
+    samples_.assign(rays_.size(), CameraSample());
+    surfaces_.resize(rays_.size());
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (!hits_[i].valid()) continue;
+      surfaces_[i] = surface_at(frame_.world, rays_[i], hits_[i]);
+      CameraSample& sample = samples_[i];
+      sample.hit = true;
+      sample.radiance = to_vec3(surfaces_[i].material->emission);
+      sample.depth = hits_[i].t;
+      sample.normal = surfaces_[i].shading_normal;
+      sample.albedo = to_vec3(surfaces_[i].material->base_color);
+      ++stats_.camera_hits;
+    }
+  }
+
+  const Frame& frame_;
+  DirectLight direct_light_;
+  RenderStats stats_;
+  std::vector<Ray> rays_;
+  std::vector<Hit> hits_;
+  std::vector<Surface> surfaces_;
+  std::vector<CameraSample> samples_;
+};
+
+/// Row by row, so that what is done when a render is watched grows from the top.
+std::vector<PixelRect> cut_into_tiles(const PixelRect& window) {
+  std::vector<PixelRect> tiles;
+  for (int y = 0; y < window.height; y += kTileSize) {
+    for (int x = 0; x < window.width; x += kTileSize) {
+      tiles.push_back(
+          {window.x + x, window.y + y, std::min(kTileSize, window.width - x), std::min(kTileSize, window.height - y)});
+    }
+  }
+  return tiles;
+}
+
+Status find_aovs(const RenderOptions& options, std::vector<const Aov*>& aovs) {
+  aovs = {&beauty_aov()};
+  for (const std::string& name : options.aovs) {
+    const Aov* aov = find_aov(name);
+    if (!aov) return {StatusCode::invalid_argument, fmt::format("no AOV is named '{}'", name)};
+    if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
+  }
+  return {};
+}
+
+Status find_window(const RenderOptions& options, PixelRect& window) {
+  if (options.width < 1 || options.height < 1 || options.samples < 1) {
+    return {StatusCode::invalid_argument, "an image needs at least one pixel and one sample"};
+  }
+  const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  if (crop.width < 1 || crop.height < 1 || crop.x < 0 || crop.y < 0 || crop.x > options.width - crop.width ||
+      crop.y > options.height - crop.height) {
+    return {StatusCode::invalid_argument,
+            fmt::format("the crop {}x{}+{}+{} is not within the image of {}x{}", crop.width, crop.height, crop.x,
+                        crop.y, options.width, options.height)};
+  }
+  window = {crop.x, crop.y, crop.width, crop.height};
+  return {};
+}
+
+void prepare_image(const Frame& frame, io::Image& image) {
+  image = io::Image();
+  image.width = frame.window.width;
+  image.height = frame.window.height;
+  for (const char* name : channel_names(frame.aovs)) image.channels.emplace_back(name);
+  image.pixels.resize(frame.window.size() * image.channels.size());
+  image.matrices = {{"worldToCamera", frame.camera.world_to_camera()},
+                    {"worldToNDC", frame.camera.world_to_ndc(frame.window.x, frame.window.y, frame.window.width,
+                                                             frame.window.height)}};
+}
+
+void render_tiles(const Frame& frame, io::Image& image, RenderStats& stats) {
+  const std::vector<PixelRect> tiles = cut_into_tiles(frame.window);
+  std::mutex mutex;
+  std::size_t done = 0;
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+    if (frame.cancelled()) return;
+    TileRenderer renderer(frame);
+    renderer.render(tiles[i], image);
+    const std::lock_guard<std::mutex> lock(mutex);
+    stats += renderer.stats();
+    ++done;
+    if (frame.options.progress) frame.options.progress(done, tiles.size());
+  });
+}
+
+}  // namespace
+
+Status check_options(const RenderOptions& options) {
+  PixelRect window;
+  std::vector<const Aov*> aovs;
+  Status status = find_window(options, window);
+  return status.ok() ? find_aovs(options, aovs) : status;
+}
+
+Status render(const World& world, const View& view, const RenderOptions& options, io::Image& image,
+              RenderStats& stats) try {
+  PixelRect window;
+  if (Status status = find_window(options, window); !status) return status;
+  std::vector<const Aov*> aovs;
+  if (Status status = find_aovs(options, aovs); !status) return status;
+  const bool per_ray = std::any_of(aovs.begin(), aovs.end(), [](const Aov* aov) { return aov->counts_work; });
+  const Frame frame = {world,
+                       view,
+                       options,
+                       Camera(view.camera, options.width, options.height),
+                       window,
+                       aovs,
+                       {options.kernel, options.count_work, per_ray}};
+
+  const auto start = std::chrono::steady_clock::now();
+  prepare_image(frame, image);
+  stats = RenderStats();
+  stats.lights.resize(view.lights.size());
+  render_tiles(frame, image, stats);
+  stats.seconds = seconds_since(start);
+  return frame.cancelled() ? Status(StatusCode::cancelled, "rendering was cancelled") : Status();
+} catch (const std::bad_alloc&) {
+  return {StatusCode::resource_limit, fmt::format("no memory for an image of {}x{}", options.width, options.height)};
+}
+
+}  // namespace umbrix::render

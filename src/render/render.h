@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/render_stats.h"
+#include "render/world.h"
+#include "umbrix/io/image_file.h"
+
+namespace umbrix::render {
+
+/// A part of the frame, in pixels from its upper left corner.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// What is seen, and in which light.
+struct View {
+  io::Camera camera;
+  std::vector<io::Light> lights;
+};
+
+struct RenderOptions {
+  int width = 1280;
+  int height = 720;
+  std::optional<Crop> crop;   ///< the image holds this part; its pixels are those of the whole frame
+  std::uint32_t samples = 1;  ///< a pixel
+  std::uint64_t seed = 0;
+  std::vector<std::string> aovs;  ///< names of known_aovs()
+  KernelId kernel;
+  bool count_work = false;                                            ///< fill LightStats::counts; slower
+  const std::atomic<bool>* cancel = nullptr;                          ///< polled for each tile and sample
+  std::function<void(std::size_t done, std::size_t total)> progress;  ///< tiles; called by one thread at a time
+};
+
+struct AovInfo {
+  std::string name;
+  std::string summary;
+};
+
+/// What RenderOptions::aovs may name.
+std::vector<AovInfo> known_aovs();
+
+/// "point", "spot", "directional".
+const char* light_type_name(io::LightType type);
+
+/// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it.
+Status check_options(const RenderOptions& options);
+
+/// Renders direct light into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on
+/// oneTBB's threads (see with_threads). The pixels depend on the world, the view and the options' image, crop, samples
+/// and seed alone. Fails as check_options; cancelled leaves `image` unfinished.
+Status render(const World& world, const View& view, const RenderOptions& options, io::Image& image, RenderStats& stats);
+
+}  // namespace umbrix::render

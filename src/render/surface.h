@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/vec.h"
+#include "render/world.h"
+
+namespace umbrix::render {
+
+/// The point a ray hit, as shading and shadow rays need it. Both normals are on the side the ray came from: surfaces
+/// are opaque and look the same from both sides, whatever doubleSided says (shadow rays see both sides too).
+struct Surface {
+  const io::Material* material = nullptr;
+  float point[3] = {};        ///< world space, rounded
+  float point_error[3] = {};  ///< bounds how far `point` is from the triangle's plane, per axis
+  Vec3 geometric_normal{0};   ///< unit
+  Vec3 shading_normal{0};     ///< unit; interpolated if the mesh has normals
+  Vec3 to_viewer{0};          ///< unit
+  Primitive primitive;
+};
+
+/// Where `ray` met `hit`.
+Surface surface_at(const World& world, const Ray& ray, const Hit& hit);
+
+}  // namespace umbrix::render

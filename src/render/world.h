@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "umbrix/io/scene_file.h"
+#include "umbrix/scene.h"
+
+namespace umbrix::render {
+
+/// One instance in world space. Each position is transformed in double and rounded once to float, so a vertex
+/// shared by triangles (or by meshes with equal transforms) has equal bits everywhere.
+struct WorldMesh {
+  std::uint32_t instance = 0;         ///< in SceneFile::instances
+  const io::Mesh* mesh = nullptr;     ///< the triangles, normals and texture coordinates
+  std::vector<io::Float3> positions;  ///< world space
+  bool mirrored = false;              ///< the transform turns counter-clockwise triangles into clockwise ones
+
+  /// The triangles as Scene::add and other tracers want them; valid while this and the file live.
+  MeshView view() const noexcept;
+};
+
+/// The instances that are there, in file order. An alpha-masked mesh whose constant alpha is below the cut-off is
+/// not there, for any ray; a blended one is opaque (`notes` says so, one line for each kind of simplification).
+/// `file` must outlive the result. resource_limit if memory runs out.
+Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes);
+
+/// What rays meet and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
+struct World {
+  const io::SceneFile* file = nullptr;
+  std::vector<WorldMesh> meshes;
+  std::vector<std::string> notes;
+  Scene scene;
+};
+
+/// Flattens and builds; `file` must outlive the world. Fails as flatten, Scene::add and Scene::commit do, naming
+/// the file.
+Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out);
+
+}  // namespace umbrix::render
