@@ -13,12 +13,15 @@ constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 /// One side of a partition while it is filled.
 struct Side {
   Cell& cell;
-  std::vector<std::uint32_t> index_of;  ///< of a parent's reference that lies wholly on this side, else kNone
   std::uint32_t first_straddler = 0;
 
   void add(const Reference& r) { cell.references.push_back(r); }
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(cell.references.size()); }
 };
+
+/// Where a parent's reference went: its side and number there, or kNone for a straddler.
+using Place = std::uint32_t;
+Place place(std::uint32_t index, std::uint32_t side) noexcept { return (index << 1) | side; }
 
 Box intersection(const Box& a, const Box& b) noexcept {
   Box result;
@@ -44,20 +47,24 @@ void append_events(const Reference& r, std::uint32_t index, int axis, std::vecto
   events.push_back(Event::end(r.box.upper[axis], index));
 }
 
-/// Keeps the order of the parent's events and merges in those of the straddlers.
-void inherit_events(const std::vector<Event>& parent, int axis, Side& side) {
-  std::vector<Event>& events = side.cell.events[static_cast<std::size_t>(axis)];
-  events.reserve(2 * side.cell.references.size());
+/// Hands the parent's events on in their order, and merges in those of the straddlers.
+void inherit_events(const std::vector<Event>& parent, const std::vector<Place>& places, int axis, Side (&sides)[2]) {
+  const auto k = static_cast<std::size_t>(axis);
+  for (Side& side : sides) side.cell.events[k].reserve(2 * side.cell.references.size());
   for (const Event& e : parent) {
-    const std::uint32_t index = side.index_of[e.reference()];
-    if (index == kNone) continue;
-    events.push_back(e.is_start() ? Event::start(e.position, index) : Event::end(e.position, index));
+    const Place to = places[e.reference()];
+    if (to == kNone) continue;
+    sides[to & 1u].cell.events[k].push_back(e.is_start() ? Event::start(e.position, to >> 1)
+                                                         : Event::end(e.position, to >> 1));
   }
-  const auto kept = static_cast<std::ptrdiff_t>(events.size());
-  for (std::uint32_t i = side.first_straddler; i < side.size(); ++i)
-    append_events(side.cell.references[i], i, axis, events);
-  std::sort(events.begin() + kept, events.end());
-  std::inplace_merge(events.begin(), events.begin() + kept, events.end());
+  for (Side& side : sides) {
+    std::vector<Event>& events = side.cell.events[k];
+    const auto kept = static_cast<std::ptrdiff_t>(events.size());
+    for (std::uint32_t i = side.first_straddler; i < side.size(); ++i)
+      append_events(side.cell.references[i], i, axis, events);
+    std::sort(events.begin() + kept, events.end());
+    std::inplace_merge(events.begin(), events.begin() + kept, events.end());
+  }
 }
 
 }  // namespace
@@ -76,9 +83,8 @@ void partition(Cell& cell, int axis, float plane, const PartitionContext& contex
   low.box.upper[axis] = plane;
   high.box.lower[axis] = plane;
   const std::size_t count = cell.references.size();
-  Side sides[2] = {{low, {}, 0}, {high, {}, 0}};
-  if (context.keep_events)
-    for (Side& side : sides) side.index_of.assign(count, kNone);
+  Side sides[2] = {{low}, {high}};
+  std::vector<Place> places(context.keep_events ? count : 0, kNone);
 
   // Hand over what lies on one side only, then cut the rest.
   std::vector<std::uint32_t> straddlers;
@@ -90,7 +96,7 @@ void partition(Cell& cell, int axis, float plane, const PartitionContext& contex
       continue;
     }
     Side& side = sides[on_high ? 1 : 0];
-    if (context.keep_events) side.index_of[i] = side.size();
+    if (context.keep_events) places[i] = place(side.size(), on_high ? 1 : 0);
     side.add(r);
   }
   for (Side& side : sides) {
@@ -98,8 +104,7 @@ void partition(Cell& cell, int axis, float plane, const PartitionContext& contex
     for (const std::uint32_t i : straddlers) add_part(cell.references[i], context, side);
   }
   if (context.keep_events)
-    for (int k = 0; k < 3; ++k)
-      for (Side& side : sides) inherit_events(cell.events[static_cast<std::size_t>(k)], k, side);
+    for (int k = 0; k < 3; ++k) inherit_events(cell.events[static_cast<std::size_t>(k)], places, k, sides);
   cell = {};
 }
 
