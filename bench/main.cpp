@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <utility>
+#include <vector>
+
+#include "command.h"
+
+namespace {
+
+using namespace umbrix::bench;
+
+struct Entry {
+  const char* name;
+  const char* summary;
+  Command* declare;
+};
+
+constexpr Entry kCommands[] = {
+    {"stress", "Judge every kernel, and Embree, on hard rays by exact arithmetic", stress_command},
+    {"throughput", "Shadow rays per second of every kernel and of Embree, on the same rays", throughput_command},
+    {"build", "Build time and memory, against Embree", build_command},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Umbrix against the truth and against Embree", "umbrix-bench");
+  app.require_subcommand(1);
+  std::vector<std::pair<CLI::App*, std::function<ExitCode()>>> commands;
+  for (const Entry& entry : kCommands) {
+    CLI::App* sub = app.add_subcommand(entry.name, entry.summary);
+    commands.emplace_back(sub, entry.declare(*sub));
+  }
+  try {
+    app.parse(argc, argv);
+    for (const auto& [sub, run] : commands) {
+      if (sub->parsed()) return run();
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "umbrix-bench: {}\n", error.what());
+    return kFailed;
+  }
+  return kUsage;
+}

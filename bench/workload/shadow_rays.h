@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "umbrix/io/scene_file.h"
+#include "umbrix/ray.h"
+#include "umbrix/scene.h"
+#include "umbrix/status.h"
+#include "workload/geometry.h"
+
+namespace umbrix::workload {
+
+/// Where the eye and the lights are.
+struct Viewpoint {
+  io::Camera camera;
+  std::vector<io::Light> lights;
+};
+
+/// From `setup_path` if not empty, else from the scene file, else the defaults that the renderer would take.
+Status find_viewpoint(const Geometry& geometry, const std::string& setup_path, Viewpoint& out);
+
+/// One segment from each front-lit primary hit to the light: size x size primary rays, the hit point moved off the
+/// surface by 1e-5 of the scene's diagonal, the direction normalised, tmax the distance (infinite for a directional
+/// light). In image order: 16x16 tiles of 4x4 blocks, pixels without a segment left out. `scene` holds `geometry`.
+std::vector<Ray> shadow_rays(const Scene& scene, const Geometry& geometry, const io::Camera& camera,
+                             const io::Light& light, int size);
+
+}  // namespace umbrix::workload
