@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace umbrix::io::detail {
+
+/// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 section 3.7.2.1 and
+/// KHR_mesh_quantization).
+enum class AccessorUse { position, normal, texcoord };
+
+/// Turns accessors into plain arrays: the only place that touches a file's buffers. Strided, normalised, quantised and
+/// sparse forms are decoded; each read is checked against its view and each view against its buffer, before memory is
+/// asked for. Throws LoadError that names the accessor.
+class AccessorReader {
+ public:
+  /// `element_limit`: how many elements may be decoded in all.
+  AccessorReader(const tinygltf::Model& model, std::uint64_t element_limit);
+
+  /// How many elements an accessor has, by its own word.
+  std::uint64_t count(int accessor) const;
+
+  std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use);
+  std::vector<std::array<float, 2>> texcoords(int accessor);
+
+  /// Vertex indices, each below `vertex_count`.
+  std::vector<std::uint32_t> indices(int accessor, std::uint64_t vertex_count);
+
+ private:
+  struct Bytes;
+  struct Encoding;
+
+  const tinygltf::Accessor& accessor_at(int accessor) const;
+  Bytes locate(int view, std::uint64_t offset, std::uint64_t count, const Encoding& encoding,
+               const std::string& label) const;
+  void spend(std::uint64_t elements, bool backed, const std::string& label);
+  template <std::size_t N>
+  std::vector<std::array<float, N>> decode(int accessor, AccessorUse use, int type);
+  template <std::size_t N>
+  void apply_sparse(const tinygltf::Accessor& accessor, const Encoding& encoding, const std::string& label,
+                    std::vector<std::array<float, N>>& out) const;
+
+  const tinygltf::Model& model_;
+  std::uint64_t elements_left_;
+  std::uint64_t zeros_left_;
+  bool quantized_;
+};
+
+}  // namespace umbrix::io::detail

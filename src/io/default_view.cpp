@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera and lights for files that have none.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "umbrix/io/scene_file.h"
+
+namespace umbrix::io {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+struct Box {
+  glm::dvec3 lower = glm::dvec3(std::numeric_limits<double>::infinity());
+  glm::dvec3 upper = -lower;
+
+  void add(const glm::dvec3& p) {
+    if (!std::isfinite(p.x + p.y + p.z)) return;
+    lower = glm::min(lower, p);
+    upper = glm::max(upper, p);
+  }
+  bool empty() const { return !(lower.x <= upper.x); }
+};
+
+glm::dvec3 to_world(const Transform& m, const glm::dvec3& p) {
+  glm::dvec3 out;
+  for (int r = 0; r < 3; ++r) {
+    const auto& row = m[static_cast<std::size_t>(r)];
+    out[r] = row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3];
+  }
+  return out;
+}
+
+glm::dvec3 point(const Float3& p) { return {p[0], p[1], p[2]}; }
+
+// The corners of each mesh's box, placed: contains the scene, and need not look at each vertex of each instance.
+Box scene_box(const SceneFile& scene) {
+  std::vector<Box> boxes(scene.meshes.size());
+  for (std::size_t m = 0; m < boxes.size(); ++m) {
+    for (const Float3& p : scene.meshes[m].positions) boxes[m].add(point(p));
+  }
+  Box box;
+  for (const Instance& instance : scene.instances) {
+    const Box& mesh = boxes[instance.mesh];
+    if (mesh.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 p(corner & 1 ? mesh.upper.x : mesh.lower.x, corner & 2 ? mesh.upper.y : mesh.lower.y,
+                         corner & 4 ? mesh.upper.z : mesh.lower.z);
+      box.add(to_world(instance.to_world, p));
+    }
+  }
+  return box;
+}
+
+// The diagonal of the box that holds the middle nine tenths of the triangles along each axis: a room keeps its size
+// though it stands in a landscape or a stray object lies far away. Looks at some ten thousand triangles.
+double typical_diagonal(const SceneFile& scene) {
+  constexpr std::uint64_t kSamples = 1u << 14;
+  constexpr double kOutside = 0.05;
+  const std::uint64_t step = scene.instanced_triangles() / kSamples + 1;
+  std::vector<double> along[3];
+  std::uint64_t next = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    for (; next < mesh.triangles.size(); next += step) {
+      glm::dvec3 sum(0);
+      for (const std::uint32_t v : mesh.triangles[next]) sum += to_world(instance.to_world, point(mesh.positions[v]));
+      if (!std::isfinite(sum.x + sum.y + sum.z)) continue;
+      for (int axis = 0; axis < 3; ++axis) along[axis].push_back(sum[axis] / 3);
+    }
+    next -= mesh.triangles.size();
+  }
+  glm::dvec3 extent(0);
+  for (int axis = 0; axis < 3 && !along[axis].empty(); ++axis) {
+    std::sort(along[axis].begin(), along[axis].end());
+    const auto outside = static_cast<std::size_t>(kOutside * static_cast<double>(along[axis].size()));
+    extent[axis] = along[axis][along[axis].size() - 1 - outside] - along[axis][outside];
+  }
+  return glm::length(extent);
+}
+
+}  // namespace
+
+float default_intensity(const SceneFile& scene, std::size_t lights) {
+  const double distance = 0.3 * typical_diagonal(scene);
+  // A white diffuse surface facing a light of I candela at distance d has radiance I / (pi d^2).
+  const double intensity = kPi * distance * distance / static_cast<double>(std::max<std::size_t>(lights, 1));
+  return intensity > 0 && std::isfinite(static_cast<float>(intensity)) ? static_cast<float>(intensity) : 1.0f;
+}
+
+Camera framing_camera(const SceneFile& scene) {
+  const Box box = scene_box(scene);
+  glm::dvec3 centre(0);
+  double radius = 1;
+  if (!box.empty()) {
+    centre = 0.5 * box.lower + 0.5 * box.upper;
+    radius = std::max(glm::length(0.5 * box.upper - 0.5 * box.lower), 1e-30);
+  }
+  Camera camera;
+  camera.name = "framing";
+  // From the front, a little to the right and above, far enough for the bounding sphere.
+  constexpr double kMargin = 1.05;
+  const glm::dvec3 z = glm::normalize(glm::dvec3(0.5, 0.4, 1));
+  const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), z));
+  const glm::dvec3 y = glm::cross(z, x);
+  const glm::dvec3 eye = centre + z * (kMargin * radius / std::sin(camera.yfov / 2));
+  for (int r = 0; r < 3; ++r) camera.to_world[static_cast<std::size_t>(r)] = {x[r], y[r], z[r], eye[r]};
+  return camera;
+}
+
+Light default_light(const Camera& camera) {
+  Light light;
+  light.name = "default";
+  light.type = LightType::directional;
+  light.intensity = static_cast<float>(kPi);
+  // In the camera's frame: forward, to the right, down.
+  const glm::dvec3 local = glm::normalize(glm::dvec3(0.5, -0.7, -1));
+  for (std::size_t r = 0; r < 3; ++r) {
+    const auto& row = camera.to_world[r];
+    light.direction[r] = row[0] * local.x + row[1] * local.y + row[2] * local.z;
+    light.position[r] = row[3];
+  }
+  return light;
+}
+
+}  // namespace umbrix::io

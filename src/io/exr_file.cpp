@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR: every channel as it is, linear, with the colour space said in numbers (ITU-R BT.709 primaries, D65).
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "io/image_formats.h"
+#include "io/oiio_output.h"
+
+namespace umbrix::io::detail {
+namespace {
+
+constexpr float kLargestHalf = 65504.0f;
+constexpr float kRec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+
+// Distances need more than the eleven bits of a half.
+bool is_depth(const std::string& channel) {
+  return channel == "Z" || (channel.size() > 2 && channel.compare(channel.size() - 2, 2, ".Z") == 0);
+}
+
+}  // namespace
+
+Status write_exr(const std::string& path, const Image& image, const WriteOptions& options) {
+  const bool half = options.pixel_type == PixelType::half;
+  const auto channels = image.channels.size();
+  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels),
+                       half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+  spec.channelnames = image.channels;
+  spec.attribute("compression", "zip");
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), kRec709);
+  set_common_attributes(spec, image);
+  for (const auto& [name, values] : image.matrices) {
+    spec.attribute(name, OIIO::TypeDesc::TypeMatrix, values.data());
+  }
+  if (!half) return write_with_oiio("openexr", path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+
+  // A bright pixel stays finite: halves end at 65504 and would become infinite.
+  std::vector<float> pixels = image.pixels;
+  spec.channelformats.assign(channels, OIIO::TypeDesc::HALF);
+  for (std::size_t c = 0; c < channels; ++c) {
+    if (is_depth(image.channels[c])) {
+      spec.channelformats[c] = OIIO::TypeDesc::FLOAT;
+      continue;
+    }
+    for (std::size_t i = c; i < pixels.size(); i += channels) {
+      if (std::isfinite(pixels[i])) pixels[i] = std::clamp(pixels[i], -kLargestHalf, kLargestHalf);
+    }
+  }
+  return write_with_oiio("openexr", path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+}  // namespace umbrix::io::detail

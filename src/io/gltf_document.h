@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "umbrix/io/scene_file.h"
+
+namespace umbrix::io::detail {
+
+/// A scene file's bytes and where its JSON is. The container (glTF 2.0 section 4.4, GLB) has been checked.
+struct GltfDocument {
+  std::vector<unsigned char> bytes;
+  bool binary = false;  ///< .glb
+  std::string_view json;
+
+  GltfDocument() = default;
+  GltfDocument(GltfDocument&&) = default;
+  GltfDocument& operator=(GltfDocument&&) = default;
+};
+
+/// Reads `path`; .gltf and .glb are told apart by the first bytes. Throws LoadError.
+GltfDocument read_gltf_document(const std::string& path, const LoadLimits& limits);
+
+/// Parses JSON with a bound on nesting. Throws LoadError.
+nlohmann::json parse_json(std::string_view text);
+
+/// Extensions that are read, and so may be required.
+bool is_supported_extension(std::string_view name);
+
+/// Checks what tinygltf takes on trust: that members have the right type and length, that every index names something
+/// that exists, that views lie within their buffers, and that the file requires nothing we do not have.
+/// Throws LoadError that names the member.
+void check_gltf_json(const nlohmann::json& root);
+
+}  // namespace umbrix::io::detail

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials (glTF 2.0 section 3.9), cameras (3.10) and KHR_lights_punctual: numbers in, numbers out, ranges checked.
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/gltf_convert.h"
+#include "io/load_error.h"
+
+namespace umbrix::io::detail {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A number of the file as float; refuses what is outside [low, high].
+float checked(double value, double low, double high, const char* what, const std::string& label) {
+  if (!(value >= low && value <= high)) bad_input("{}: {} is {}, must be from {} to {}", label, what, value, low, high);
+  return static_cast<float>(value);
+}
+
+constexpr double kLargest = std::numeric_limits<float>::max();
+
+float emissive_strength(const tinygltf::Material& material, const std::string& label) {
+  const auto extension = material.extensions.find("KHR_materials_emissive_strength");
+  if (extension == material.extensions.end() || !extension->second.Has("emissiveStrength")) return 1;
+  const tinygltf::Value& value = extension->second.Get("emissiveStrength");
+  return checked(value.GetNumberAsDouble(), 0, kLargest, "emissiveStrength", label);
+}
+
+AlphaMode alpha_mode(const std::string& name, const std::string& label) {
+  if (name == "OPAQUE") return AlphaMode::opaque;
+  if (name == "MASK") return AlphaMode::mask;
+  if (name == "BLEND") return AlphaMode::blend;
+  bad_input("{}: alphaMode '{}' is none of OPAQUE, MASK, BLEND", label, printable(name, 32));
+}
+
+Material convert_material(const tinygltf::Material& in, const std::string& label) {
+  const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
+  Material out;
+  out.name = in.name;
+  if (pbr.baseColorFactor.size() == 4) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.base_color[c] = checked(pbr.baseColorFactor[c], 0, 1, "baseColorFactor", label);
+    }
+    out.alpha = checked(pbr.baseColorFactor[3], 0, 1, "baseColorFactor", label);
+  }
+  out.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor", label);
+  out.roughness = checked(pbr.roughnessFactor, 0, 1, "roughnessFactor", label);
+  if (in.emissiveFactor.size() == 3) {
+    const float strength = emissive_strength(in, label);
+    for (std::size_t c = 0; c < 3; ++c) {
+      // Old exporters put strengths above one here.
+      const float factor = checked(in.emissiveFactor[c], 0, kLargest, "emissiveFactor", label);
+      out.emission[c] = checked(static_cast<double>(factor) * strength, 0, kLargest, "emission", label);
+    }
+  }
+  out.double_sided = in.doubleSided;
+  out.alpha_mode = alpha_mode(in.alphaMode, label);
+  out.alpha_cutoff = checked(in.alphaCutoff, 0, kLargest, "alphaCutoff", label);
+  out.base_color_texture = pbr.baseColorTexture.index;
+  return out;
+}
+
+}  // namespace
+
+void convert_materials(Conversion& conversion) {
+  std::size_t number = 0;
+  for (const tinygltf::Material& material : conversion.model.materials) {
+    conversion.scene.materials.push_back(convert_material(material, label_of("materials", number, material.name)));
+    ++number;
+  }
+}
+
+Camera convert_camera(const tinygltf::Camera& in, const std::string& label) {
+  Camera out;
+  out.name = in.name;
+  double zfar = 0;
+  if (in.type == "perspective") {
+    out.type = CameraType::perspective;
+    out.yfov = in.perspective.yfov;
+    out.aspect = in.perspective.aspectRatio;
+    out.znear = in.perspective.znear;
+    zfar = in.perspective.zfar;
+    if (!(out.yfov > 0 && out.yfov < kPi)) bad_input("{}: yfov is {}, must be between 0 and pi", label, out.yfov);
+    if (!(out.aspect >= 0)) bad_input("{}: aspectRatio is {}, must not be negative", label, out.aspect);
+    if (zfar == 0) zfar = std::numeric_limits<double>::infinity();
+  } else if (in.type == "orthographic") {
+    out.type = CameraType::orthographic;
+    // Negative magnifications mirror the image; glTF advises against them.
+    out.xmag = std::abs(in.orthographic.xmag);
+    out.ymag = std::abs(in.orthographic.ymag);
+    out.znear = in.orthographic.znear;
+    zfar = in.orthographic.zfar;
+    if (!(out.xmag > 0 && out.ymag > 0)) bad_input("{}: xmag and ymag must not be 0", label);
+  } else {
+    bad_input("{}: type '{}' is neither perspective nor orthographic", label, printable(in.type, 32));
+  }
+  if (!(out.znear >= 0 && zfar > out.znear)) {
+    bad_input("{}: znear {} and zfar {} are not in order", label, out.znear, zfar);
+  }
+  out.zfar = zfar;
+  return out;
+}
+
+Light convert_light(const tinygltf::Light& in, const std::string& label) {
+  Light out;
+  out.name = in.name;
+  if (in.type == "point") {
+    out.type = LightType::point;
+  } else if (in.type == "spot") {
+    out.type = LightType::spot;
+  } else if (in.type == "directional") {
+    out.type = LightType::directional;
+  } else {
+    bad_input("{}: type '{}' is none of point, spot, directional", label, printable(in.type, 32));
+  }
+  if (in.color.size() == 3) {
+    for (std::size_t c = 0; c < 3; ++c) out.color[c] = checked(in.color[c], 0, kLargest, "color", label);
+  }
+  out.intensity = checked(in.intensity, 0, kLargest, "intensity", label);
+  // tinygltf gives 0 for a light without a range.
+  if (in.range != 0) out.range = checked(in.range, 0, kLargest, "range", label);
+  if (out.type == LightType::spot) {
+    out.outer_cone_angle = checked(in.spot.outerConeAngle, 0, kPi / 2 + 1e-6, "outerConeAngle", label);
+    out.inner_cone_angle = checked(in.spot.innerConeAngle, 0, in.spot.outerConeAngle, "innerConeAngle", label);
+    if (out.outer_cone_angle == 0) bad_input("{}: outerConeAngle is 0", label);
+  }
+  return out;
+}
+
+}  // namespace umbrix::io::detail

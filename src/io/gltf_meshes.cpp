@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Primitives to triangle lists (glTF 2.0, section 3.7.2).
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "io/accessor.h"
+#include "io/gltf_convert.h"
+#include "io/load_error.h"
+
+namespace umbrix::io::detail {
+namespace {
+
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Reads a corner: through the indices, or in order if there are none.
+struct Corners {
+  std::vector<std::uint32_t> indices;
+  std::uint64_t count = 0;
+
+  std::uint32_t operator()(std::uint64_t i) const {
+    return indices.empty() ? static_cast<std::uint32_t>(i) : indices[i];
+  }
+};
+
+std::uint64_t triangle_count(int mode, std::uint64_t corners) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return corners / 3;
+  return corners < 3 ? 0 : corners - 2;
+}
+
+// The windings are those of the specification's formulas: all triangles of a strip face the same way.
+Triangle triangle(int mode, const Corners& corner, std::uint64_t i) {
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {corner(i), corner(i + 1 + i % 2), corner(i + 2 - i % 2)};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {corner(i + 1), corner(i + 2), corner(0)};
+  return {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
+}
+
+// Keeps only the vertices that are used, in their order. Exporters like to cut one big vertex array into many
+// primitives; each would carry it whole.
+void drop_unused_vertices(Mesh& mesh) {
+  std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) place[v] = 0;
+  }
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == kUnused) continue;
+    mesh.positions[kept] = mesh.positions[v];
+    if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[v];
+    if (!mesh.texcoords.empty()) mesh.texcoords[kept] = mesh.texcoords[v];
+    place[v] = kept++;
+  }
+  mesh.positions.resize(kept);
+  mesh.positions.shrink_to_fit();
+  if (!mesh.normals.empty()) mesh.normals.resize(kept), mesh.normals.shrink_to_fit();
+  if (!mesh.texcoords.empty()) mesh.texcoords.resize(kept), mesh.texcoords.shrink_to_fit();
+  for (Triangle& t : mesh.triangles) {
+    for (std::uint32_t& v : t) v = place[v];
+  }
+}
+
+// An attribute's accessor, or -1. Refuses one of another length than the positions.
+int attribute(const tinygltf::Primitive& primitive, const char* name, const AccessorReader& reader,
+              std::uint64_t vertex_count, const std::string& label) {
+  const auto found = primitive.attributes.find(name);
+  if (found == primitive.attributes.end()) return -1;
+  if (const std::uint64_t count = reader.count(found->second); count != vertex_count) {
+    bad_input("{}: {} has {} elements, POSITION has {}", label, name, count, vertex_count);
+  }
+  return found->second;
+}
+
+void note_ignored(const tinygltf::Primitive& primitive, const std::string& label, Remarks& ignored) {
+  if (!primitive.targets.empty()) ignored.add("morph targets", label);
+  if (primitive.attributes.count("COLOR_0") > 0) ignored.add("vertex colours", label);
+}
+
+class MeshConverter {
+ public:
+  explicit MeshConverter(Conversion& conversion)
+      : conversion_(conversion),
+        // Vertices may be decoded more often than they are used; see drop_unused_vertices.
+        reader_(conversion.model, saturated_times_8(conversion.limits.triangles)),
+        triangles_left_(conversion.limits.triangles) {}
+
+  void convert(const tinygltf::Primitive& primitive, const std::string& name, const std::string& label) {
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode > TINYGLTF_MODE_TRIANGLE_FAN) bad_input("{}: mode {} does not exist", label, mode);
+    if (mode < TINYGLTF_MODE_TRIANGLES) return conversion_.ignored.add("primitives of points or lines", label);
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) return conversion_.ignored.add("primitives without POSITION", label);
+    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
+        conversion_.model.accessors[static_cast<std::size_t>(position->second)].bufferView < 0) {
+      bad_input(
+          "{}: is compressed with KHR_draco_mesh_compression, which is not supported; gltf-transform can "
+          "decompress the file",
+          label);
+    }
+
+    const std::uint64_t vertex_count = reader_.count(position->second);
+    if (vertex_count >= kUnused) over_limit("{}: {} vertices, the limit is {}", label, vertex_count, kUnused - 1);
+    Corners corners;
+    if (primitive.indices >= 0) corners.indices = reader_.indices(primitive.indices, vertex_count);
+    corners.count = primitive.indices >= 0 ? corners.indices.size() : vertex_count;
+    const std::uint64_t count = triangle_count(mode, corners.count);
+    if (count > triangles_left_) {
+      over_limit("{}: the file has more than {} triangles, which is the limit", label, conversion_.limits.triangles);
+    }
+    triangles_left_ -= count;
+    if (mode == TINYGLTF_MODE_TRIANGLES && corners.count % 3 != 0) {
+      conversion_.warnings.add("left-over vertices after the last whole triangle", label);
+    }
+    if (count == 0) return conversion_.warnings.add("primitives without triangles", label);
+
+    Mesh mesh;
+    mesh.name = name;
+    mesh.positions = reader_.vectors(position->second, AccessorUse::position);
+    const int normals = attribute(primitive, "NORMAL", reader_, vertex_count, label);
+    if (normals >= 0) mesh.normals = reader_.vectors(normals, AccessorUse::normal);
+    const int texcoords = attribute(primitive, "TEXCOORD_0", reader_, vertex_count, label);
+    if (texcoords >= 0) mesh.texcoords = reader_.texcoords(texcoords);
+    mesh.triangles.resize(count);
+    for (std::uint64_t i = 0; i < count; ++i) mesh.triangles[i] = triangle(mode, corners, i);
+    if (vertex_count > corners.count) drop_unused_vertices(mesh);
+    mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material();
+    note_ignored(primitive, label, conversion_.ignored);
+    conversion_.scene.meshes.push_back(std::move(mesh));
+  }
+
+  // glTF's material for primitives that name none; made when first needed.
+  std::uint32_t default_material() {
+    std::vector<Material>& materials = conversion_.scene.materials;
+    if (materials.size() == conversion_.model.materials.size()) {
+      materials.emplace_back();
+      materials.back().name = "default";
+    }
+    return static_cast<std::uint32_t>(materials.size() - 1);
+  }
+
+ private:
+  static std::uint64_t saturated_times_8(std::uint64_t n) {
+    return n > std::numeric_limits<std::uint64_t>::max() / 8 ? std::numeric_limits<std::uint64_t>::max() : n * 8;
+  }
+
+  Conversion& conversion_;
+  AccessorReader reader_;
+  std::uint64_t triangles_left_;
+};
+
+}  // namespace
+
+void convert_meshes(Conversion& conversion) {
+  MeshConverter converter(conversion);
+  conversion.first_mesh.push_back(0);
+  for (std::size_t m = 0; m < conversion.model.meshes.size(); ++m) {
+    const tinygltf::Mesh& mesh = conversion.model.meshes[m];
+    const std::string label = label_of("meshes", m, mesh.name);
+    for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+      converter.convert(mesh.primitives[p], mesh.name, fmt::format("{} primitives[{}]", label, p));
+    }
+    conversion.first_mesh.push_back(static_cast<std::uint32_t>(conversion.scene.meshes.size()));
+  }
+  if (conversion.scene.materials.empty()) converter.default_material();
+}
+
+}  // namespace umbrix::io::detail

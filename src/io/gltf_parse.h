@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+
+#include "io/gltf_document.h"
+
+namespace umbrix::io::detail {
+
+/// Parses a document that check_gltf_json passed, with tinygltf. `root` is the document's JSON. Buffers come from the
+/// document, from data URIs, or from files in the folder of `path` (or anywhere, if the limits allow it); images are
+/// neither read nor decoded. Throws LoadError.
+tinygltf::Model parse_gltf(const std::string& path, const GltfDocument& document, const nlohmann::json& root,
+                           const LoadLimits& limits);
+
+}  // namespace umbrix::io::detail

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "umbrix/io/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "io/atomic_file.h"
+#include "io/image_formats.h"
+#include "io/input_file.h"
+#include "io/load_error.h"
+
+namespace umbrix::io {
+namespace {
+
+struct Format {
+  const char* extension;
+  Status (*write)(const std::string& path, const Image& image, const WriteOptions& options);
+};
+
+#define UMBRIX_FORMAT_ROW(name, extension) {extension, &detail::write_##name},
+constexpr Format kFormats[] = {UMBRIX_IMAGE_FORMATS(UMBRIX_FORMAT_ROW)};
+#undef UMBRIX_FORMAT_ROW
+
+// The most pixels that read_image takes, before memory is asked for.
+constexpr std::uint64_t kMaxFloats = 1ull << 31;
+
+Status failed(const std::string& path, const std::string& reason) {
+  return {StatusCode::output_failed, detail::printable(path) + ": " + detail::one_line(reason)};
+}
+
+Status find_format(const std::string& path, const Format*& out) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::string known;
+  for (const Format& format : kFormats) {
+    if (extension == format.extension) {
+      out = &format;
+      return {};
+    }
+    known += std::string(known.empty() ? "" : ", ") + format.extension;
+  }
+  return failed(path, "unknown image format; the name must end in one of " + known);
+}
+
+// Do the fields agree with each other?
+const char* fault_of(const Image& image) {
+  if (image.width <= 0 || image.height <= 0) return "the image is empty";
+  if (image.channels.empty()) return "the image has no channels";
+  const auto count = static_cast<std::uint64_t>(image.width) * static_cast<std::uint64_t>(image.height);
+  if (image.pixels.size() % image.channels.size() != 0 || image.pixels.size() / image.channels.size() != count) {
+    return "the image's pixels do not match its size";
+  }
+  for (const auto& matrix : image.matrices) {
+    if (matrix.second.size() != 16) return "a matrix of the image has not 16 values";
+  }
+  return nullptr;
+}
+
+// Runs a step of writing; exceptions of libraries end here.
+template <class Step>
+Status guarded(const std::string& path, Step step) {
+  try {
+    return step();
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::resource_limit, detail::printable(path) + ": not enough memory"};
+  } catch (const std::exception& e) {
+    return failed(path, e.what());
+  }
+}
+
+Status read_checked(const std::string& path, Image& out) {
+  if (Status status = detail::check_readable(path); !status) return status;
+  const auto bad = [&](const std::string& reason) {
+    return Status(StatusCode::bad_input, detail::printable(path) + ": " + detail::one_line(reason));
+  };
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) return bad(OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) return bad("the image is empty");
+  const auto floats = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+  if (floats > kMaxFloats / static_cast<std::uint64_t>(spec.nchannels)) {
+    return {StatusCode::resource_limit, detail::printable(path) + ": the image is too large"};
+  }
+  Image image;
+  image.width = spec.width;
+  image.height = spec.height;
+  image.channels = spec.channelnames;
+  image.pixels.resize(floats * static_cast<std::uint64_t>(spec.nchannels));
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
+    return bad(input->geterror());
+  }
+  for (const auto& attribute : spec.extra_attribs) {
+    if (attribute.type() == OIIO::TypeDesc::TypeMatrix) {
+      const auto* values = static_cast<const float*>(attribute.data());
+      image.matrices.emplace_back(attribute.name().string(), std::vector<float>(values, values + 16));
+    } else if (attribute.type() == OIIO::TypeDesc::STRING) {
+      image.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+    }
+  }
+  out = std::move(image);
+  return {};
+}
+
+}  // namespace
+
+Status check_output(const std::string& path, const WriteOptions& options) {
+  return guarded(path, [&]() -> Status {
+    const Format* format = nullptr;
+    if (Status status = find_format(path, format); !status) return status;
+    return detail::AtomicFile::check(path, options.overwrite);
+  });
+}
+
+Status write_image(const std::string& path, const Image& image, const WriteOptions& options) {
+  return guarded(path, [&]() -> Status {
+    const Format* format = nullptr;
+    if (Status status = find_format(path, format); !status) return status;
+    if (const char* fault = fault_of(image)) {
+      return {StatusCode::invalid_argument, detail::printable(path) + ": " + fault};
+    }
+    detail::AtomicFile file;
+    if (Status status = file.begin(path, options.overwrite); !status) return status;
+    if (Status status = format->write(file.temporary(), image, options); !status) {
+      return {status.code(), detail::printable(path) + ": " + detail::one_line(status.message())};
+    }
+    return file.commit();
+  });
+}
+
+Status read_image(const std::string& path, Image& out) {
+  out = {};
+  return guarded(path, [&] { return read_checked(path, out); });
+}
+
+Status write_text(const std::string& path, const std::string& text, bool overwrite) {
+  return guarded(path, [&]() -> Status {
+    if (path == "-") {
+      const bool done = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+      return done ? Status() : failed("standard output", "cannot be written");
+    }
+    detail::AtomicFile file;
+    if (Status status = file.begin(path, overwrite); !status) return status;
+    std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");
+    if (!stream) return failed(path, "cannot be created");
+    const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+    const bool closed = std::fclose(stream) == 0;
+    if (!written || !closed) return failed(path, "cannot be written; is the disk full?");
+    return file.commit();
+  });
+}
+
+}  // namespace umbrix::io

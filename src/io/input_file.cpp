@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/input_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "io/load_error.h"
+
+namespace umbrix::io::detail {
+namespace {
+
+// Owns a file descriptor.
+struct File {
+  int number = -1;
+  std::uint64_t bytes = 0;
+  ~File() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+// Non-blocking, so that a pipe nobody writes to cannot hang the program.
+void open_regular(const std::string& path, File& file) {
+  file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  struct stat info {};
+  if (file.number < 0 || ::fstat(file.number, &info) != 0) {
+    bad_input("cannot be read: {}", std::generic_category().message(errno));
+  }
+  if (S_ISDIR(info.st_mode)) bad_input("is a folder, not a file");
+  if (!S_ISREG(info.st_mode)) bad_input("is not a regular file");
+  file.bytes = static_cast<std::uint64_t>(info.st_size);
+}
+
+}  // namespace
+
+Status check_readable(const std::string& path) {
+  try {
+    File file;
+    open_regular(path, file);
+    if (file.bytes == 0) bad_input("is empty");
+    return {};
+  } catch (const LoadError& e) {
+    return {e.code, printable(path) + ": " + e.what};
+  }
+}
+
+std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limit) {
+  File file;
+  open_regular(path, file);
+  if (file.bytes == 0) bad_input("is empty");
+  if (file.bytes > limit) over_limit("has {} bytes, the limit is {}", file.bytes, limit);
+  std::vector<unsigned char> bytes(file.bytes);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got = ::read(file.number, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) bad_input("cannot be read: {}", std::generic_category().message(errno));
+    if (got == 0) bad_input("became shorter while it was read");
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
+}
+
+}  // namespace umbrix::io::detail

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "umbrix/io/scene_file.h"
+
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "io/gltf_convert.h"
+#include "io/gltf_document.h"
+#include "io/gltf_parse.h"
+#include "io/load_error.h"
+
+namespace umbrix::io {
+namespace detail {
+
+void Remarks::add(const std::string& kind, const std::string& where, std::uint64_t count) {
+  Entry& entry = entries_[kind];
+  if (entry.count == 0) entry.first = where;
+  entry.count += count;
+}
+
+std::vector<std::string> Remarks::lines() const {
+  std::vector<std::string> out;
+  for (const auto& [kind, entry] : entries_) {
+    std::string line = kind;
+    if (entry.count > 1) line += fmt::format(": {}", entry.count);
+    if (!entry.first.empty()) line += fmt::format("{} in {}", entry.count > 1 ? ", first" : ":", entry.first);
+    out.push_back(std::move(line));
+  }
+  return out;
+}
+
+std::string label_of(const char* array, std::size_t index, const std::string& name) {
+  return name.empty() ? fmt::format("{}[{}]", array, index)
+                      : fmt::format("{}[{}] '{}'", array, index, printable(name, 64));
+}
+
+namespace {
+
+void note_unread(Conversion& c) {
+  const auto note = [&](const char* kind, std::size_t count) {
+    if (count > 0) c.ignored.add(kind, "", count);
+  };
+  note("animations (the file's static pose is used)", c.model.animations.size());
+  note("skins (the meshes' own pose is used)", c.model.skins.size());
+  note("textures (factors only are used)", c.model.textures.size());
+  note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);
+  for (const std::string& name : c.model.extensionsUsed) {
+    if (!is_supported_extension(name)) c.ignored.add("extension " + printable(name, 64), "");
+  }
+}
+
+void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
+  const tinygltf::Model model = [&] {
+    const GltfDocument document = read_gltf_document(path, limits);
+    const nlohmann::json root = parse_json(document.json);
+    check_gltf_json(root);
+    return parse_gltf(path, document, root, limits);
+  }();
+  scene.path = path;
+  scene.generator = model.asset.generator;
+  scene.extensions_used = model.extensionsUsed;
+  scene.textures = model.textures.size();
+  scene.animations = model.animations.size();
+
+  Conversion conversion{model, limits, scene, {}, {}, {}};
+  convert_materials(conversion);
+  convert_meshes(conversion);
+  convert_nodes(conversion);
+  note_unread(conversion);
+  if (scene.instances.empty()) conversion.warnings.add("the scene shows no triangles", "");
+  scene.ignored = conversion.ignored.lines();
+  scene.warnings = conversion.warnings.lines();
+}
+
+}  // namespace
+}  // namespace detail
+
+std::uint64_t SceneFile::instanced_triangles() const noexcept {
+  std::uint64_t count = 0;
+  for (const Instance& instance : instances) count += meshes[instance.mesh].triangles.size();
+  return count;
+}
+
+Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits) {
+  out = {};
+  const auto failed = [&](StatusCode code, const std::string& what) {
+    out = {};
+    return Status(code, detail::printable(path) + ": " + what);
+  };
+  try {
+    detail::load(path, out, limits);
+    return {};
+  } catch (const detail::LoadError& e) {
+    return failed(e.code, e.what);
+  } catch (const std::bad_alloc&) {
+    return failed(StatusCode::resource_limit, "not enough memory");
+  } catch (const std::length_error&) {
+    return failed(StatusCode::resource_limit, "not enough memory");
+  } catch (const std::exception& e) {
+    return failed(StatusCode::bad_input, detail::one_line(e.what()));
+  }
+}
+
+}  // namespace umbrix::io
