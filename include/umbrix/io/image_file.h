@@ -16,10 +16,10 @@ namespace umbrix::io {
 struct Image {
   int width = 0;
   int height = 0;
-  std::vector<std::string> channels;  ///< "R", "G", "B", "A", "normal.X", "depth.Z", ...
-  std::vector<float> pixels;          ///< width * height * channels.size()
-  std::vector<std::pair<std::string, std::string>> metadata;        ///< text attributes
-  std::vector<std::pair<std::string, std::vector<float>>> matrices; ///< 16 floats each, e.g. worldToCamera
+  std::vector<std::string> channels;                                 ///< "R", "G", "B", "A", "normal.X", "depth.Z", ...
+  std::vector<float> pixels;                                         ///< width * height * channels.size()
+  std::vector<std::pair<std::string, std::string>> metadata;         ///< text attributes
+  std::vector<std::pair<std::string, std::vector<float>>> matrices;  ///< 16 floats each, e.g. worldToCamera
 };
 
 enum class PixelType { half, single };

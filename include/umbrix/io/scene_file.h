@@ -33,18 +33,18 @@ struct Material {
   Float3 emission{0, 0, 0};
   bool double_sided = false;
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha_cutoff = 0.5f;                 ///< for AlphaMode::mask
-  std::int32_t base_color_texture = -1;      ///< index of the file's texture, kept for when textures are read
+  float alpha_cutoff = 0.5f;             ///< for AlphaMode::mask
+  std::int32_t base_color_texture = -1;  ///< index of the file's texture, kept for when textures are read
 };
 
 /// One glTF primitive as a triangle list. Strips and fans are expanded, accessors decoded.
 struct Mesh {
   std::string name;
   std::vector<Float3> positions;
-  std::vector<Float3> normals;                     ///< empty, or one a position
-  std::vector<std::array<float, 2>> texcoords;     ///< empty, or one a position
+  std::vector<Float3> normals;                          ///< empty, or one a position
+  std::vector<std::array<float, 2>> texcoords;          ///< empty, or one a position
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices are in range
-  std::uint32_t material = 0;                      ///< always valid; a default material exists
+  std::uint32_t material = 0;                           ///< always valid; a default material exists
 };
 
 /// A mesh placed in the world.
@@ -64,8 +64,8 @@ struct Light {
   float intensity = 1;
   float range = std::numeric_limits<float>::infinity();  ///< no light beyond; infinite if the file has none
   Double3 position{0, 0, 0};
-  Double3 direction{0, 0, -1};   ///< the way the light shines; unit length
-  float inner_cone_angle = 0;    ///< radians, for spots
+  Double3 direction{0, 0, -1};  ///< the way the light shines; unit length
+  float inner_cone_angle = 0;   ///< radians, for spots
   float outer_cone_angle = 0.7853982f;
 };
 
@@ -80,7 +80,7 @@ struct Camera {
   double xmag = 1, ymag = 1;         ///< half extents, orthographic
   double znear = 0;
   double zfar = std::numeric_limits<double>::infinity();
-  Transform to_world = kIdentity;    ///< rotation and translation; any scale is removed
+  Transform to_world = kIdentity;  ///< rotation and translation; any scale is removed
 };
 
 /// What a file holds, after all checks.
@@ -93,7 +93,7 @@ struct SceneFile {
   std::vector<Light> lights;
   std::vector<Camera> cameras;
   std::vector<std::string> extensions_used;
-  std::vector<std::string> ignored;   ///< one line for each kind of thing the file has and we do not use
+  std::vector<std::string> ignored;  ///< one line for each kind of thing the file has and we do not use
   std::vector<std::string> warnings;
   std::uint64_t textures = 0;
   std::uint64_t animations = 0;
@@ -108,7 +108,7 @@ struct LoadLimits {
   std::uint64_t triangles = 1ull << 29;  ///< over all instances
   std::uint32_t node_depth = 256;
   std::uint64_t nodes = 1'000'000;
-  bool allow_paths_outside = false;      ///< buffers outside the scene file's folder
+  bool allow_paths_outside = false;  ///< buffers outside the scene file's folder
 };
 
 /// Reads .gltf or .glb (told apart by content). On failure `out` is empty and the message names the file and what is
@@ -118,7 +118,7 @@ UMBRIX_API Status load_scene(const std::string& path, SceneFile& out, const Load
 /// Camera and lights from outside the scene file.
 struct Setup {
   std::optional<Camera> camera;
-  std::vector<Light> lights;      ///< empty: keep the file's
+  std::vector<Light> lights;  ///< empty: keep the file's
 };
 
 /// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"
