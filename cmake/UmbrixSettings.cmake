@@ -11,6 +11,7 @@ function(umbrix_settings target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES
     CXX_EXTENSIONS OFF
+    DEFINE_SYMBOL ""  # export.h needs none; so static and shared objects are the same to a compiler cache
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
     POSITION_INDEPENDENT_CODE ON)
