@@ -54,40 +54,46 @@ Box scene_box(const SceneFile& scene) {
   return box;
 }
 
-// The diagonal of the box that holds the middle nine tenths of the triangles along each axis: a room keeps its size
-// though it stands in a landscape or a stray object lies far away. Looks at some ten thousand triangles.
-double typical_diagonal(const SceneFile& scene) {
+// The centres of some ten thousand of the scene's triangles, evenly picked.
+std::vector<glm::dvec3> sample_centres(const SceneFile& scene) {
   constexpr std::uint64_t kSamples = 1u << 14;
-  constexpr double kOutside = 0.05;
   const std::uint64_t step = scene.instanced_triangles() / kSamples + 1;
-  std::vector<double> along[3];
+  std::vector<glm::dvec3> centres;
   std::uint64_t next = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     for (; next < mesh.triangles.size(); next += step) {
       glm::dvec3 sum(0);
       for (const std::uint32_t v : mesh.triangles[next]) sum += to_world(instance.to_world, point(mesh.positions[v]));
-      if (!std::isfinite(sum.x + sum.y + sum.z)) continue;
-      for (int axis = 0; axis < 3; ++axis) along[axis].push_back(sum[axis] / 3);
+      if (std::isfinite(sum.x + sum.y + sum.z)) centres.push_back(sum / 3.0);
     }
     next -= mesh.triangles.size();
   }
-  glm::dvec3 extent(0);
-  for (int axis = 0; axis < 3 && !along[axis].empty(); ++axis) {
-    std::sort(along[axis].begin(), along[axis].end());
-    const auto outside = static_cast<std::size_t>(kOutside * static_cast<double>(along[axis].size()));
-    extent[axis] = along[axis][along[axis].size() - 1 - outside] - along[axis][outside];
-  }
-  return glm::length(extent);
+  return centres;
+}
+
+// A white diffuse surface facing a light of I candela at distance d has radiance I / (pi d^2).
+float candela_for(double distance) {
+  const auto intensity = static_cast<float>(kPi * distance * distance);
+  return intensity > 0 && std::isfinite(intensity) ? intensity : 1.0f;
 }
 
 }  // namespace
 
 float default_intensity(const SceneFile& scene, std::size_t lights) {
-  const double distance = 0.3 * typical_diagonal(scene);
-  // A white diffuse surface facing a light of I candela at distance d has radiance I / (pi d^2).
-  const double intensity = kPi * distance * distance / static_cast<double>(std::max<std::size_t>(lights, 1));
-  return intensity > 0 && std::isfinite(static_cast<float>(intensity)) ? static_cast<float>(intensity) : 1.0f;
+  const Box box = scene_box(scene);
+  const float all = candela_for(box.empty() ? 0 : 0.3 * glm::length(box.upper - box.lower));
+  return all / static_cast<float>(std::max<std::size_t>(lights, 1));
+}
+
+float default_intensity(const SceneFile& scene, const Double3& position) {
+  const glm::dvec3 light(position[0], position[1], position[2]);
+  std::vector<double> distances;
+  for (const glm::dvec3& centre : sample_centres(scene)) distances.push_back(glm::length(centre - light));
+  if (distances.empty()) return default_intensity(scene, 1);
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return candela_for(*middle);
 }
 
 Camera framing_camera(const SceneFile& scene) {

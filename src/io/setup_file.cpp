@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr std::uint64_t kMostBytes = 64u << 20;
-constexpr std::size_t kMostLights = 65536;
+constexpr std::size_t kMostLights = 4096;
 
 double number(const json& value, double low, double high, const std::string& label) {
   if (!value.is_number()) bad_input("{}: is not a number", label);
@@ -101,15 +101,13 @@ void read_cone(const json& object, const std::string& label, Light& light) {
   }
 }
 
-Light read_light_object(const json& object, const std::string& label, float point_intensity) {
+Light read_light_object(const json& object, const std::string& label, const SceneFile& scene) {
   refuse_unknown(object,
                  {"type", "name", "position", "direction", "color", "intensity", "range", "inner_cone_degrees",
                   "outer_cone_degrees"},
                  label);
   Light light;
   light.type = light_type(object, label);
-  // Without one: a white surface facing the light gets a radiance of one, if near it (see default_intensity).
-  light.intensity = light.type == LightType::directional ? static_cast<float>(kPi) : point_intensity;
   if (object.contains("name") && object.at("name").is_string()) light.name = object.at("name").get<std::string>();
   if (light.type != LightType::directional) {
     light.position = triple(member(object, "position", label), -kLargest, label + ".position");
@@ -125,6 +123,10 @@ Light read_light_object(const json& object, const std::string& label, float poin
   }
   if (object.contains("intensity")) {
     light.intensity = static_cast<float>(number(object.at("intensity"), 0, kLargest, label + ".intensity"));
+  } else {
+    // A white surface that faces the light gets a radiance of one.
+    light.intensity =
+        light.type == LightType::directional ? static_cast<float>(kPi) : default_intensity(scene, light.position);
   }
   if (object.contains("range")) {
     light.range = static_cast<float>(number(object.at("range"), 1e-30, kLargest, label + ".range"));
@@ -136,17 +138,16 @@ Light read_light_object(const json& object, const std::string& label, float poin
 std::vector<Light> read_lights(const json& array, const SceneFile& scene) {
   if (!array.is_array()) bad_input("lights: is not an array");
   if (array.size() > kMostLights) over_limit("lights: {} lights, the limit is {}", array.size(), kMostLights);
-  const float intensity = default_intensity(scene, array.size());
   std::vector<Light> lights;
   for (const json& value : array) {
     const std::string label = fmt::format("lights[{}]", lights.size());
     if (value.is_object()) {
-      lights.push_back(read_light_object(value, label, intensity));
+      lights.push_back(read_light_object(value, label, scene));
       continue;
     }
     Light light;
     light.position = triple(value, -kLargest, label);
-    light.intensity = intensity;
+    light.intensity = default_intensity(scene, light.position);
     lights.push_back(std::move(light));
   }
   return lights;

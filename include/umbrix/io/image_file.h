@@ -26,7 +26,7 @@ enum class PixelType { half, single };
 enum class ToneMap { none, srgb, aces };
 
 struct WriteOptions {
-  PixelType pixel_type = PixelType::half;  ///< EXR
+  PixelType pixel_type = PixelType::half;  ///< EXR; depths (Z, *.Z) are floats always, large halves end at 65504
   float exposure = 0;                      ///< stops, PNG
   ToneMap tone_map = ToneMap::srgb;        ///< PNG; none: linear values clamped and stored without a curve
   bool overwrite = false;                  ///< otherwise an existing file is an error

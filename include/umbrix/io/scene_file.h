@@ -123,12 +123,18 @@ struct Setup {
 
 /// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"
 /// of which the one that matches the scene's file name is taken. A camera is {eye, target, up, fov_y_degrees}.
-/// A light is [x, y, z] (a point light of a default intensity, see default_intensity) or an object.
+/// A light is [x, y, z] (a point light of the default intensity for its position) or an object;
+/// docs/setup.md has the format.
 UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out);
 
-/// The intensity in candela that gives a white surface, facing one of `lights` point lights at 0.3 of the scene's
-/// diagonal, a radiance of about 1.
+/// The intensity in candela at which `lights` point lights together give a white surface that faces them, at 0.3 of the
+/// scene's diagonal, a radiance of about 1.
 UMBRIX_API float default_intensity(const SceneFile& scene, std::size_t lights);
+
+/// The intensity in candela at which a point light at `position` gives a white surface that faces it, as far off as the
+/// middle one of the scene's triangles by distance, a radiance of 1. Neither stray objects nor a landscape around a
+/// room matter. Looks at some ten thousand triangles.
+UMBRIX_API float default_intensity(const SceneFile& scene, const Double3& position);
 
 /// A camera that frames the scene, for files that have none.
 UMBRIX_API Camera framing_camera(const SceneFile& scene);
