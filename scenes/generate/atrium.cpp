@@ -29,8 +29,8 @@ dvec3 on_side(double turn, double distance, double along, double up) {
 }
 
 void add_colonnades(Scene& scene, const Palette& palette) {
-  const std::uint32_t low_column = scene.add(column(palette, "column", 60, 10, 0.07));
-  const std::uint32_t high_column = scene.add(column(palette, "upper column", 24, 0, 0));
+  const std::uint32_t low_column = scene.add(column(palette, "column", 5, 12));
+  const std::uint32_t high_column = scene.add(column(palette, "upper column", 3, 0));
   const auto add_bay_meshes = [&](double width) {
     const std::uint32_t first = scene.add(arcade(palette, "arch", width, width / 2 - 0.45, kGallery - 0.3 - kSpring));
     scene.add(arcade(palette, "upper arch", width / 2, width / 4 - 0.3, kEaves - kUpperSpring));
@@ -102,13 +102,14 @@ void add_court(Scene& scene, const Palette& palette) {
   scene.place(fountain(palette), {0, 0.05, -3});
   const std::uint32_t palm = scene.add(potted_palm(palette));
   double turn = 0;
-  for (const double z : {-10, -6, 0, 4, 8}) {
+  for (const double z : {-10, -6, 2, 6}) {
     for (const double x : {-3.1, 3.1}) scene.place(palm, {x, 0.05, z}, turn += 0.3);
   }
   const std::uint32_t cloths[] = {palette.red, palette.blue, palette.gold};
   std::uint32_t banners[3];
-  for (int i = 0; i < 3; ++i) banners[i] = scene.add(banner(cloths[i], palette, i));
-  for (int i = 0; i < kBays; ++i) {
+  for (int i = 0; i < 3; ++i) banners[i] = scene.add(banner(cloths[i], i < 2 ? palette.gold : palette.red, palette, i));
+  // None over the camera.
+  for (int i = 0; i < kBays - 1; ++i) {
     const double along = kBay * (i - (kBays - 1) / 2.0);
     for (const double side : {0.25, -0.25}) {
       scene.place(banners[i % 3], on_side(side, kHalfWidth - 0.62, side > 0 ? -along : along, kGallery + 0.6), side);
@@ -121,16 +122,17 @@ void add_court(Scene& scene, const Palette& palette) {
 Scene atrium() {
   Scene scene;
   scene.name = "atrium";
-  scene.camera = {{-1.2, 2.1, 12.6}, {0.15, 3.6, -3}, 0.95};
+  scene.quantized = true;
+  scene.camera = {{-1, 2.3, 12.4}, {0.2, 3.75, -3}, 0.95};
   const Palette palette = add_materials(scene);
   add_shell(scene, palette);
   add_colonnades(scene, palette);
   add_court(scene, palette);
   scene.place(sky(scene, 44, 40, 0.12, 0.38));
   scene.lights = {
-      {"sun", LightType::directional, {1, 0.9, 0.74}, 5, {5.5, 11, 4}, {0, 0, 0}},
-      {"sky", LightType::directional, {0.62, 0.78, 1}, 0.7, {-2, 8, 5}, {0, 0, 0}},
-      {"bounce", LightType::point, {1, 0.82, 0.6}, 14, {-1.6, 1.3, 1}},
+      {"sun", LightType::directional, {1, 0.9, 0.74}, 6.5, {4.4, 8, 6}, {0, 0, 0}},
+      {"sky", LightType::directional, {0.62, 0.78, 1}, 0.9, {-2, 8, 5}, {0, 0, 0}},
+      {"bounce", LightType::point, {1, 0.84, 0.64}, 36, {-0.2, 2.8, 4}},
       {"porch", LightType::spot, {1, 0.75, 0.45}, 60, {0, 4.6, -9.5}, {0, 1.6, -17}, 0.3, 0.7},
   };
   return scene;

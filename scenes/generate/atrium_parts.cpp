@@ -18,7 +18,7 @@ Palette add_materials(Scene& scene) {
           scene.add(Material{"wood", {0.22, 0.12, 0.06}, 0.6}),
           scene.add(Material{"iron", {0.08, 0.08, 0.09}, 0.5, 0.5}),
           scene.add(Material{"water", {0.08, 0.24, 0.27}, 0.15}),
-          scene.add(Material{"leaf", {0.13, 0.33, 0.07}, 0.6, 0, {0, 0, 0}, true}),
+          scene.add(Material{"leaf", {0.13, 0.25, 0.05}, 0.7, 0, {0, 0, 0}, true}),
           scene.add(Material{"lantern", {0.8, 0.6, 0.3}, 0.8, 0, {1, 0.72, 0.36}}),
           scene.add(Material{"red cloth", {0.55, 0.06, 0.05}, 0.9}),
           scene.add(Material{"blue cloth", {0.07, 0.14, 0.4}, 0.9}),
@@ -28,7 +28,7 @@ Palette add_materials(Scene& scene) {
 namespace {
 
 /// An acanthus leaf that stands on the bell of a capital and curls outwards at its tip.
-Shape capital_leaf(double height, double base_radius) {
+Shape capital_leaf(double height, double base_radius, int detail) {
   const Surface face = [=](double u, double v) {
     const double side = 2 * u - 1;
     const double width = 0.075 * (1 - 0.75 * v * v * v);
@@ -36,28 +36,48 @@ Shape capital_leaf(double height, double base_radius) {
     const double rib = 0.012 * (1 - side * side);
     return dvec3(side * width, height * (v - 0.22 * curl * v), base_radius + 0.03 * v + 0.1 * curl + rib);
   };
-  return slab(6, 8, face, [=](double u, double v) { return face(u, v) - dvec3(0, -0.012, 0.025); });
+  return slab(detail, detail + 2, face, [=](double u, double v) { return face(u, v) - dvec3(0, -0.012, 0.025); });
 }
 
 }  // namespace
 
-Mesh column(const Palette& palette, const char* name, int sides, int flutes, double groove) {
+Mesh column(const Palette& palette, const char* name, int detail, int flutes) {
   Mesh mesh{name, {}};
   mesh.add(palette.pale, box({-0.42, 0, -0.42}, {0.42, 0.2, 0.42}));
-  mesh.add(palette.pale, lathe({{0, 0.2}, {0.36, 0.2, true}, {0.4, 0.22}, {0.41, 0.26}, {0.4, 0.3}, {0.36, 0.32, true},
-                                {0.34, 0.34}, {0.33, 0.37}, {0.34, 0.4, true}, {0.37, 0.41}, {0.375, 0.44},
-                                {0.36, 0.47, true}, {0.31, 0.48, true}, {0.29, 0.55, true}, {0, 0.55}},
-                               32));
+  mesh.add(palette.pale, lathe({{0, 0.2},
+                                {0.36, 0.2, true},
+                                {0.4, 0.22},
+                                {0.41, 0.26},
+                                {0.4, 0.3},
+                                {0.36, 0.32, true},
+                                {0.34, 0.34},
+                                {0.33, 0.37},
+                                {0.34, 0.4, true},
+                                {0.37, 0.41},
+                                {0.375, 0.44},
+                                {0.36, 0.47, true},
+                                {0.31, 0.48, true},
+                                {0.29, 0.55, true},
+                                {0, 0.55}},
+                               6 * detail));
   // A slight swelling (entasis) keeps the shaft from looking waisted.
-  mesh.add(palette.sandstone, lathe({{0, 0.5}, {0.285, 0.5, true}, {0.285, 1.1}, {0.275, 1.8}, {0.245, 2.62, true},
-                                     {0, 2.62}},
-                                    sides, flutes, groove));
-  mesh.add(palette.pale, lathe({{0, 2.58}, {0.255, 2.58, true}, {0.28, 2.6}, {0.28, 2.64}, {0.255, 2.66, true},
-                                {0.24, 2.7}, {0.245, 2.9}, {0.29, 3.1}, {0.37, 3.22, true}, {0, 3.22}},
+  mesh.add(palette.sandstone,
+           lathe({{0, 0.5}, {0.285, 0.5, true}, {0.285, 1.1}, {0.275, 1.8}, {0.245, 2.62, true}, {0, 2.62}},
+                 flutes == 0 ? 6 * detail : 6 * flutes, flutes, 0.07));
+  mesh.add(palette.pale, lathe({{0, 2.58},
+                                {0.255, 2.58, true},
+                                {0.28, 2.6},
+                                {0.28, 2.64},
+                                {0.255, 2.66, true},
+                                {0.24, 2.7},
+                                {0.245, 2.9},
+                                {0.29, 3.1},
+                                {0.37, 3.22, true},
+                                {0, 3.22}},
                                32));
   for (int i = 0; i < 8; ++i) {
-    mesh.add(palette.pale, moved(turned(capital_leaf(0.32, 0.235), {0, 1, 0}, i / 8.0), {0, 2.67, 0}));
-    mesh.add(palette.pale, moved(turned(capital_leaf(0.52, 0.24), {0, 1, 0}, (i + 0.5) / 8), {0, 2.67, 0}));
+    mesh.add(palette.pale, moved(turned(capital_leaf(0.32, 0.235, detail), {0, 1, 0}, i / 8.0), {0, 2.67, 0}));
+    mesh.add(palette.pale, moved(turned(capital_leaf(0.52, 0.24, detail), {0, 1, 0}, (i + 0.5) / 8), {0, 2.67, 0}));
   }
   mesh.add(palette.pale, moved(rounded_box({0.42, 0.035, 0.42}, 0.02, 2), {0, 3.255, 0}));
   mesh.add(palette.pale, box({-0.45, 3.29, -0.45}, {0.45, 3.4, 0.45}));
@@ -70,8 +90,7 @@ Mesh arcade(const Palette& palette, const char* name, double width, double radiu
   mesh.add(palette.plaster, arch(radius, top, depth, 32));
   for (const double side : {-1, 1}) {
     const double inner = side * radius, outer = side * width / 2;
-    mesh.add(palette.plaster,
-             box({std::min(inner, outer), 0, -depth / 2}, {std::max(inner, outer), top, depth / 2}));
+    mesh.add(palette.plaster, box({std::min(inner, outer), 0, -depth / 2}, {std::max(inner, outer), top, depth / 2}));
   }
   mesh.add(palette.pale, half_ring(radius, radius + 0.12, depth + 0.1, 32));
   mesh.add(palette.sandstone, half_ring(radius + 0.12, radius + 0.24, depth + 0.04, 32));
@@ -101,9 +120,19 @@ Mesh balustrade(const Palette& palette, double width) {
   mesh.add(palette.pale, moved(rounded_box({half, 0.05, 0.14}, 0.03, 2), {0, 0.83, 0}));
   mesh.add(palette.pale, box({half, 0, -0.16}, {width - half, 0.92, 0.16}));
   const int count = static_cast<int>(width / 0.3);
-  const Shape baluster = lathe({{0, 0.08}, {0.07, 0.08, true}, {0.07, 0.12, true}, {0.04, 0.14}, {0.055, 0.2},
-                                {0.075, 0.28}, {0.07, 0.36}, {0.04, 0.5}, {0.032, 0.62}, {0.045, 0.66, true},
-                                {0.06, 0.7, true}, {0.06, 0.78, true}, {0, 0.78}},
+  const Shape baluster = lathe({{0, 0.08},
+                                {0.07, 0.08, true},
+                                {0.07, 0.12, true},
+                                {0.04, 0.14},
+                                {0.055, 0.2},
+                                {0.075, 0.28},
+                                {0.07, 0.36},
+                                {0.04, 0.5},
+                                {0.032, 0.62},
+                                {0.045, 0.66, true},
+                                {0.06, 0.7, true},
+                                {0.06, 0.78, true},
+                                {0, 0.78}},
                                12);
   for (int i = 0; i < count; ++i) {
     mesh.add(palette.pale, moved(baluster, {-half + 2 * half * (i + 0.5) / count, 0, 0}));
@@ -150,16 +179,17 @@ Mesh coffers(const Palette& palette) {
   return mesh;
 }
 
-Mesh banner(std::uint32_t cloth, const Palette& palette, int seed) {
+Mesh banner(std::uint32_t cloth, std::uint32_t hem, const Palette& palette, int seed) {
   Mesh mesh{"banner", {}};
   const Surface face = [=](double u, double v) {
     const double down = 1 - v, point = 0.35 * (1 - (2 * u - 1) * (2 * u - 1)) * (v < 0.2 ? 1 - v / 0.2 : 0);
     const double billow = 0.1 * down * sin_turns(0.7 * u + 0.9 * down + 0.3 * seed) + 0.06 * noise(3 * u, 4 * v, 7);
     return dvec3(1.3 * (u - 0.5), -2.6 * down - point, billow * (0.2 + down));
   };
-  mesh.add(cloth, slab(24, 48, face, dvec3(0, 0, -0.012)));
-  mesh.add(palette.gold, stretched(slab(24, 2, [&](double u, double v) { return face(u, 0.07 + 0.03 * v) + dvec3(0, 0, 0.006); },
-                                        dvec3(0, 0, -0.024)), {1, 1, 1}));
+  mesh.add(cloth, slab(16, 32, face, dvec3(0, 0, -0.012)));
+  mesh.add(hem, slab(
+                    16, 1, [&](double u, double v) { return face(u, 0.09 + 0.04 * v) + dvec3(0, 0, 0.006); },
+                    dvec3(0, 0, -0.024)));
   mesh.add(palette.iron, rod({{-0.8, 0, 0}, {0.8, 0, 0}}, 0.025, 10));
   return mesh;
 }
@@ -175,14 +205,37 @@ Mesh lantern(const Palette& palette) {
 
 Mesh fountain(const Palette& palette) {
   Mesh mesh{"fountain", {}};
-  mesh.add(palette.pale, lathe({{0, 0}, {1.6, 0, true}, {1.6, 0.12, true}, {1.4, 0.14, true}, {1.36, 0.2}, {1.38, 0.42},
-                                {1.48, 0.5, true}, {1.5, 0.58}, {1.46, 0.6, true}, {1.3, 0.6, true}, {1.26, 0.2, true},
+  mesh.add(palette.pale, lathe({{0, 0},
+                                {1.6, 0, true},
+                                {1.6, 0.12, true},
+                                {1.4, 0.14, true},
+                                {1.36, 0.2},
+                                {1.38, 0.42},
+                                {1.48, 0.5, true},
+                                {1.5, 0.58},
+                                {1.46, 0.6, true},
+                                {1.3, 0.6, true},
+                                {1.26, 0.2, true},
                                 {0, 0.2}},
                                8));
   mesh.add(palette.water, lathe({{0, 0.4}, {1.25, 0.4, true}, {1.25, 0.5, true}, {0, 0.5}}, 8));
-  mesh.add(palette.pale, lathe({{0, 0.1}, {0.3, 0.1, true}, {0.3, 0.62}, {0.16, 0.72}, {0.12, 0.9}, {0.16, 1.08},
-                                {0.3, 1.16}, {0.6, 1.26}, {0.75, 1.4, true}, {0.7, 1.41, true}, {0.5, 1.32},
-                                {0.14, 1.3, true}, {0.09, 1.4}, {0.08, 1.62}, {0.16, 1.72}, {0.12, 1.84}, {0, 1.92}},
+  mesh.add(palette.pale, lathe({{0, 0.1},
+                                {0.3, 0.1, true},
+                                {0.3, 0.62},
+                                {0.16, 0.72},
+                                {0.12, 0.9},
+                                {0.16, 1.08},
+                                {0.3, 1.16},
+                                {0.6, 1.26},
+                                {0.75, 1.4, true},
+                                {0.7, 1.41, true},
+                                {0.5, 1.32},
+                                {0.14, 1.3, true},
+                                {0.09, 1.4},
+                                {0.08, 1.62},
+                                {0.16, 1.72},
+                                {0.12, 1.84},
+                                {0, 1.92}},
                                48));
   mesh.add(palette.water, lathe({{0, 1.36}, {0.66, 1.37, true}, {0.66, 1.385, true}, {0, 1.39}}, 48));
   return mesh;
@@ -190,15 +243,21 @@ Mesh fountain(const Palette& palette) {
 
 Mesh potted_palm(const Palette& palette) {
   Mesh mesh{"potted palm", {}};
-  mesh.add(palette.terracotta, lathe({{0, 0}, {0.24, 0, true}, {0.26, 0.08}, {0.36, 0.45}, {0.38, 0.58, true},
-                                      {0.43, 0.6}, {0.43, 0.68, true}, {0.37, 0.68, true}, {0.35, 0.58, true}, {0, 0.58}},
+  mesh.add(palette.terracotta, lathe({{0, 0},
+                                      {0.24, 0, true},
+                                      {0.26, 0.08},
+                                      {0.36, 0.45},
+                                      {0.38, 0.58, true},
+                                      {0.43, 0.6},
+                                      {0.43, 0.68, true},
+                                      {0.37, 0.68, true},
+                                      {0.35, 0.58, true},
+                                      {0, 0.58}},
                                      32));
   Random random(11);
   for (int frond = 0; frond < 22; ++frond) {
     const double around = frond * 0.382, rise = random.between(0.5, 1.5), reach = 1.5 - 0.75 * rise;
-    const auto spine = [&](double t) {
-      return dvec3(0, 0.58 + rise * t - 0.55 * reach * t * t * t, reach * t);
-    };
+    const auto spine = [&](double t) { return dvec3(0, 0.58 + rise * t - 0.55 * reach * t * t * t, reach * t); };
     for (int i = 3; i < 26; ++i) {
       const double t = i / 26.0, length = 0.34 * (1.15 - t) + 0.05;
       for (const double side : {-1, 1}) {
@@ -208,7 +267,9 @@ Mesh potted_palm(const Palette& palette) {
       }
     }
     std::vector<Station> stem;
-    for (int i = 0; i <= 6; ++i) stem.push_back({turned(spine(i / 6.0), {0, 1, 0}, around), turned(dvec3(1, 0, 0), {0, 1, 0}, around), 0.014 - 0.0015 * i});
+    for (int i = 0; i <= 6; ++i)
+      stem.push_back(
+          {turned(spine(i / 6.0), {0, 1, 0}, around), turned(dvec3(1, 0, 0), {0, 1, 0}, around), 0.014 - 0.0015 * i});
     mesh.add(palette.leaf, tube(stem, 5));
   }
   return mesh;

@@ -17,8 +17,8 @@ struct Palette {
 
 Palette add_materials(Scene& scene);
 
-/// 3.4 high, on the ground. `flutes` grooves of relative depth `groove` run along the shaft.
-Mesh column(const Palette& palette, const char* name, int sides, int flutes, double groove);
+/// 3.4 high, on the ground, with grooves along the shaft if `flutes` is not 0. Triangles grow with detail squared.
+Mesh column(const Palette& palette, const char* name, int detail, int flutes);
 
 /// One bay of the wall on the columns; the origin is the middle of the arch's springing line.
 Mesh arcade(const Palette& palette, const char* name, double width, double radius, double top);
@@ -39,7 +39,7 @@ Mesh door(const Palette& palette);
 Mesh coffers(const Palette& palette);
 
 /// A banner that hangs down from y = 0 and billows towards +z.
-Mesh banner(std::uint32_t cloth, const Palette& palette, int seed);
+Mesh banner(std::uint32_t cloth, std::uint32_t hem, const Palette& palette, int seed);
 
 /// A lamp on a chain, hanging from y = 0.
 Mesh lantern(const Palette& palette);

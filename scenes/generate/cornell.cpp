@@ -37,7 +37,7 @@ void add_room(Scene& scene) {
   room.add(white, box({-1, 0, -1.1}, {1, 2, -1}));
   room.add(red, box({-1.1, 0, -1.1}, {-1, 2, 1}));
   room.add(green, box({1, 0, -1.1}, {1.1, 2, 1}));
-  room.add(lamp, box({-0.3, 1.98, -0.3}, {0.3, 2, 0.3}));
+  room.add(lamp, box({-0.3, 1.995, -0.3}, {0.3, 2, 0.3}));
   scene.place(std::move(room));
 }
 
@@ -55,26 +55,27 @@ void add_objects(Scene& scene) {
   scene.place(std::move(low), {0.42, 0.15, 0.22}, -0.05);
 
   Mesh knotted{"knot", {}};
-  knotted.add(gold, knot(0.22, 0.062, 288, 24));
+  knotted.add(gold, knot(0.22, 0.062, 224, 20));
   scene.place(std::move(knotted), {-0.38, 1.264, -0.38}, 0.06);
 
   Mesh vase{"vase", {}};
-  vase.add(blue, lathe({{0, 0},         {0.09, 0, true},  {0.1, 0.012},   {0.09, 0.03},  {0.1, 0.06},   {0.14, 0.12},
-                        {0.165, 0.19},  {0.168, 0.25},    {0.15, 0.32},   {0.11, 0.38},  {0.07, 0.43},  {0.055, 0.47},
-                        {0.055, 0.51},  {0.075, 0.55},    {0.095, 0.57},  {0.09, 0.572}, {0.065, 0.548}, {0.045, 0.51},
-                        {0.045, 0.47},  {0.06, 0.43},     {0.1, 0.375},   {0.138, 0.32}, {0.15, 0.25},  {0.12, 0.12},
-                        {0, 0.06}},
+  vase.add(blue, lathe({{0, 0},        {0.09, 0, true}, {0.1, 0.012},  {0.09, 0.03},  {0.1, 0.06},
+                        {0.14, 0.12},  {0.165, 0.19},   {0.168, 0.25}, {0.15, 0.32},  {0.11, 0.38},
+                        {0.07, 0.43},  {0.055, 0.47},   {0.055, 0.51}, {0.075, 0.55}, {0.095, 0.57},
+                        {0.09, 0.572}, {0.065, 0.548},  {0.045, 0.51}, {0.045, 0.47}, {0.06, 0.43},
+                        {0.1, 0.375},  {0.138, 0.32},   {0.15, 0.25},  {0.12, 0.12},  {0, 0.06}},
                        64));
   scene.place(std::move(vase), {0.42, 0.3, 0.22});
 
   Mesh ball{"ball", {}};
-  ball.add(ivory, sphere(0.2, 96, 48));
+  ball.add(ivory, sphere(0.2, 64, 32));
   scene.place(std::move(ball), {-0.3, 0.2, 0.45});
 
   Mesh ring{"ring", {}};
   std::vector<Station> circle;
-  for (int i = 0; i < 96; ++i) circle.push_back({dvec3(cos_turns(i / 96.0), 0, -sin_turns(i / 96.0)) * 0.13, {0, 1, 0}, 0.035});
-  ring.add(gold, tube(circle, 24, true));
+  for (int i = 0; i < 72; ++i)
+    circle.push_back({dvec3(cos_turns(i / 72.0), 0, -sin_turns(i / 72.0)) * 0.13, {0, 1, 0}, 0.035});
+  ring.add(gold, tube(circle, 20, true));
   scene.place(std::move(ring), {0.12, 0.035, 0.7});
 }
 
@@ -83,14 +84,14 @@ void add_objects(Scene& scene) {
 Scene cornell() {
   Scene scene;
   scene.name = "cornell";
-  scene.camera = {{0, 1, 3.9}, {0, 0.98, 0}, 0.66};
+  scene.camera = {{0, 1, 3.6}, {0, 0.99, 0}, 0.74};
   add_room(scene);
   add_objects(scene);
   const dvec3 warm(1, 0.9, 0.75);
   scene.lights = {
-      {"lamp", LightType::point, warm, 6, {0, 1.9, 0}},
-      {"picture light", LightType::spot, warm, 9, {0.7, 1.9, 0.8}, {-0.38, 1.15, -0.38}, 0.15, 0.4},
-      {"room behind the camera", LightType::directional, {0.75, 0.85, 1}, 0.5, {0.4, 1.5, 4}, {0, 1, 0}},
+      {"lamp", LightType::point, warm, 4.2, {0, 1.72, 0}},
+      {"picture light", LightType::spot, warm, 8, {0.7, 1.9, 0.8}, {-0.38, 1.15, -0.38}, 0.15, 0.4},
+      {"behind the camera", LightType::point, {0.8, 0.88, 1}, 5, {0.5, 1.3, 3.4}},
   };
   return scene;
 }

@@ -189,14 +189,19 @@ class Writer {
     json_["meshes"].push_back({{"name", mesh.name}, {"primitives", primitives}});
   }
 
+  static Json decimals(const dvec3& v, double units) {
+    return {rounded(v.x, units), rounded(v.y, units), rounded(v.z, units)};
+  }
+
   static void put_rotation(Json& node, const glm::dquat& q) {
-    constexpr double kStep = 1.0 / 65536;
-    if (q.w != 1) node["rotation"] = {snapped(q.x, kStep), snapped(q.y, kStep), snapped(q.z, kStep), snapped(q.w, kStep)};
+    if (q.w == 1) return;
+    node["rotation"] = decimals({q.x, q.y, q.z}, 1e5);
+    node["rotation"].push_back(rounded(q.w, 1e5));
   }
 
   /// A node at `position` whose -z axis points to `target`.
   static Json looking(const std::string& name, const dvec3& position, const dvec3& target) {
-    Json node{{"name", name}, {"translation", numbers(position)}};
+    Json node{{"name", name}, {"translation", decimals(position, 1e4)}};
     const dvec3 along = glm::normalize(target - position);
     const bool steep = along.y * along.y > 0.99;
     put_rotation(node, glm::quatLookAt(along, steep ? dvec3(0, 0, 1) : dvec3(0, 1, 0)));
@@ -207,11 +212,11 @@ class Writer {
     Json nodes = Json::array(), lights = Json::array(), roots = Json::array();
     for (const Node& n : scene_.nodes) {
       Json node{{"mesh", n.mesh}};
-      const dvec3 position = snapped(n.position);
-      if (position != dvec3(0)) node["translation"] = numbers(position);
+      if (n.position != dvec3(0)) node["translation"] = decimals(n.position, 1e4);
       put_rotation(node, n.rotation);
-      const dvec3 scale = quantized_[n.mesh] ? snapped(n.scale) * kGrid : snapped(n.scale);
-      if (scale != dvec3(1)) node["scale"] = numbers(scale);
+      const dvec3 scale = quantized_[n.mesh] ? n.scale * kGrid : n.scale;
+      const bool exact = glm::fract(n.scale) == dvec3(0);
+      if (scale != dvec3(1)) node["scale"] = exact ? numbers(scale) : decimals(scale, 1e8);
       nodes.push_back(node);
     }
     for (const Light& l : scene_.lights) {
@@ -220,7 +225,7 @@ class Writer {
       if (l.type == LightType::spot) {
         light["spot"] = {{"innerConeAngle", l.inner_cone_angle}, {"outerConeAngle", l.outer_cone_angle}};
       }
-      Json node = l.type == LightType::point ? Json{{"name", l.name}, {"translation", numbers(l.position)}}
+      Json node = l.type == LightType::point ? Json{{"name", l.name}, {"translation", decimals(l.position, 1e4)}}
                                              : looking(l.name, l.position, l.target);
       node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
       lights.push_back(light);

@@ -20,7 +20,7 @@ struct Entry {
 };
 /// A scene is one line here and one file beside this one.
 constexpr std::array kEntries{
-    Entry{"atrium", atrium}, Entry{"bedroom", bedroom},       Entry{"conference", conference},
+    Entry{"atrium", atrium},   Entry{"bedroom", bedroom}, Entry{"conference", conference},
     Entry{"cornell", cornell}, Entry{"forest", forest},
 };
 

@@ -14,6 +14,9 @@ inline constexpr double kGrid = 1.0 / 4096;
 inline double snapped(double x, double step = kGrid) { return std::floor(x / step + 0.5) * step; }
 inline glm::dvec3 snapped(const glm::dvec3& p) { return {snapped(p.x), snapped(p.y), snapped(p.z)}; }
 
+/// The nearest number with so many decimals, 1 / `units` apart: it is printed as short as it looks.
+inline double rounded(double x, double units) { return std::floor(x * units + 0.5) / units; }
+
 /// sin(2 pi x). Taylor's series in plain arithmetic, because the last bit of std::sin differs between C libraries.
 inline double sin_turns(double x) {
   double t = x - std::floor(x + 0.5);
@@ -39,7 +42,8 @@ inline std::uint32_t hashed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// A stream of random numbers, the same for the same seed.
+/// A stream of random numbers, the same for the same seed. Draw once in an expression: C++ leaves the order of two
+/// open.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(hashed(seed)) {}

@@ -63,7 +63,10 @@ Mesh sky(Scene& scene, double radius, double height, double first_turn, double l
     const double blue = static_cast<double>(i) / (kBands - 1);
     const dvec3 emission = horizon + (zenith - horizon) * (blue * (2 - blue));
     const std::uint32_t material = scene.add(
-        Material{"sky " + std::to_string(i), dvec3(0), 1, 0,
+        Material{"sky " + std::to_string(i),
+                 dvec3(0),
+                 1,
+                 0,
                  {snapped(emission.x, 1.0 / 1024), snapped(emission.y, 1.0 / 1024), snapped(emission.z, 1.0 / 1024)}});
     mesh.add(material, sheet(16, 1, [&](double u, double v) {
                const double turns = last_turn + (first_turn - last_turn) * u;

@@ -45,8 +45,8 @@ struct ProfilePoint {
   bool sharp = false;  ///< a crease around the shape
 };
 
-/// The profile (upwards) turned around the y axis: `sides` quadrilaterals a ring. Closed if both ends have radius 0.
-/// `flutes` grooves of relative depth `groove` run along it.
+/// The profile (upwards) turned around the y axis: `sides` quadrilaterals a ring. Closed if both ends have radius 0 or
+/// are the same. `flutes` grooves of relative depth `groove` run along it.
 Shape lathe(const std::vector<ProfilePoint>& profile, int sides, int flutes = 0, double groove = 0);
 
 Shape sphere(double radius, int sides, int rings);

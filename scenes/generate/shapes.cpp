@@ -52,7 +52,8 @@ std::uint32_t add_row(Shape& shape, int columns, const std::function<dvec3(doubl
 }
 
 /// Joins two lines, given by functions, with vertices of their own.
-void add_strip(Shape& shape, int columns, const std::function<dvec3(double)>& a, const std::function<dvec3(double)>& b) {
+void add_strip(Shape& shape, int columns, const std::function<dvec3(double)>& a,
+               const std::function<dvec3(double)>& b) {
   const std::uint32_t first = add_row(shape, columns, a);
   band(shape, first, add_row(shape, columns, b), static_cast<std::uint32_t>(columns) + 1, false);
 }
@@ -104,7 +105,11 @@ Shape rounded_box(const dvec3& half_size, double radius, int steps) {
         return vertex(p);
       };
       for (int i = 0; i < last; ++i) {
-        for (int j = 0; j < last; ++j) shape.quad(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+        for (int j = 0; j < last; ++j) {
+          // In order: the vertices are made here, and C++ leaves the order of arguments open.
+          const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+          shape.quad(a, b, c, d);
+        }
       }
     }
   }
@@ -205,10 +210,14 @@ Shape sheet(int columns, int rows, const Surface& f) {
 Shape slab(int columns, int rows, const Surface& outer, const Surface& inner) {
   Shape shape = sheet(columns, rows, outer);
   append(shape, sheet(columns, rows, [&](double u, double v) { return inner(1 - u, v); }));
-  add_strip(shape, columns, [&](double u) { return inner(u, 0); }, [&](double u) { return outer(u, 0); });
-  add_strip(shape, rows, [&](double v) { return inner(1, v); }, [&](double v) { return outer(1, v); });
-  add_strip(shape, columns, [&](double u) { return inner(1 - u, 1); }, [&](double u) { return outer(1 - u, 1); });
-  add_strip(shape, rows, [&](double v) { return inner(0, 1 - v); }, [&](double v) { return outer(0, 1 - v); });
+  add_strip(
+      shape, columns, [&](double u) { return inner(u, 0); }, [&](double u) { return outer(u, 0); });
+  add_strip(
+      shape, rows, [&](double v) { return inner(1, v); }, [&](double v) { return outer(1, v); });
+  add_strip(
+      shape, columns, [&](double u) { return inner(1 - u, 1); }, [&](double u) { return outer(1 - u, 1); });
+  add_strip(
+      shape, rows, [&](double v) { return inner(0, 1 - v); }, [&](double v) { return outer(0, 1 - v); });
   return shape;
 }
 
