@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -194,6 +195,14 @@ const char* mode_name(Mode mode) {
 }
 
 const char* version() { return RTC_VERSION_STRING; }
+
+bool accepts(const Ray& ray) {
+  constexpr float kLargest = 1.844e18f;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(std::abs(ray.origin[k]) <= kLargest && std::abs(ray.direction[k]) <= kLargest)) return false;
+  }
+  return ray.tmin >= 0 && !std::isnan(ray.tmax);
+}
 
 EmbreeScene::EmbreeScene() noexcept = default;
 EmbreeScene::~EmbreeScene() = default;

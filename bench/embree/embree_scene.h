@@ -33,6 +33,9 @@ const char* mode_name(Mode mode);
 /// "3.13.5".
 const char* version();
 
+/// Whether Embree takes the ray at all: finite, no magnitude above 1.844e18, and 0 <= tmin (Debian's build asserts it).
+bool accepts(const Ray& ray);
+
 /// Triangles in Embree's tree. After build, occluded may be called from any number of threads.
 class EmbreeScene {
  public:
@@ -44,7 +47,8 @@ class EmbreeScene {
   /// Copies the meshes and builds. Masks and opacity are not used.
   Status build(const std::vector<MeshView>& meshes, const Options& options);
 
-  /// out[i] = 1 if rays[i] is occluded, else 0. Converts to Embree's rays on the way, as any host has to.
+  /// out[i] = 1 if rays[i] is occluded, else 0, for rays that Embree accepts. Converts to Embree's rays on the way, as
+  /// any host has to.
   void occluded(RaySpan rays, Mode mode, std::uint8_t* out) const;
 
   /// What Embree's memory monitor counted: after the build, and at most during it; vertices and indices included.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Every kernel on every instruction set, on every hard case: the answers are those of exact arithmetic.
+#include "cases/cases.h"
+
+#include <gtest/gtest.h>
+
+#include "judge/judge.h"
+#include "judge/minimise.h"
+#include "test_rays.h"
+
+namespace umbrix::judge {
+namespace {
+
+class HardCase : public testing::TestWithParam<const char*> {};
+
+TEST_P(HardCase, EveryKernelIsRight) {
+  const cases::Case& c = *cases::find_case(GetParam());
+  const auto rays = static_cast<std::size_t>(static_cast<double>(test_rays(3000)) * c.share) + 1;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << " rays " << rays);
+    const cases::CaseData data = c.make(seed, rays);
+    Options options;
+    options.all_targets = true;
+    options.closest_rays = rays / 2;
+    Result result;
+    const Status status = judge(data, options, result);
+    ASSERT_TRUE(status.ok()) << status.message();
+    ASSERT_GE(result.answers, rays);
+    EXPECT_EQ(result.complaints.size(), 0u);
+    for (std::size_t i = 0; i < std::min<std::size_t>(result.complaints.size(), 3); ++i) {
+      ADD_FAILURE() << describe(data, result.complaints[i]);
+    }
+  }
+}
+
+std::vector<const char*> case_names() {
+  std::vector<const char*> names;
+  for (const cases::Case& c : cases::all_cases()) names.push_back(c.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(AllCases, HardCase, testing::ValuesIn(case_names()),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace umbrix::judge

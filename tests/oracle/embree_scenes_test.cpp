@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Real scenes: every kernel against Embree on shadow rays. Where they differ, exact arithmetic decides, and it must
+// decide for us. Embree's own errors are printed.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "embree/embree_scene.h"
+#include "oracle/brute_force.h"
+#include "test_rays.h"
+#include "umbrix/umbrix.h"
+#include "workload/geometry.h"
+#include "workload/shadow_rays.h"
+
+namespace umbrix {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path shared_folder() {
+  const char* folder = std::getenv("UMBRIX_SCENES_DIR");
+  return folder != nullptr ? folder : UMBRIX_SHARED_SCENES;
+}
+
+// The project's own scenes and those beside the checkout; the folder's own name stands for scenes that are absent.
+std::vector<std::string> scene_paths() {
+  std::vector<std::string> paths;
+  for (const fs::path& folder : {fs::path(UMBRIX_SOURCE_DIR) / "scenes", shared_folder()}) {
+    std::error_code error;
+    const std::size_t before = paths.size();
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".glb") paths.push_back(entry.path().string());
+    }
+    if (paths.size() == before) paths.push_back(folder.string());
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+// Rays to the lights in turn, at growing resolutions, until there are enough.
+std::vector<Ray> enough_shadow_rays(const Scene& scene, const workload::Geometry& geometry,
+                                    const workload::Viewpoint& viewpoint, std::size_t wanted) {
+  std::vector<Ray> rays;
+  const int first_size = wanted < 10'000 ? 64 : 512;
+  for (int size = first_size; rays.size() < wanted && size <= 8 * first_size; size = size * 3 / 2) {
+    for (const io::Light& light : viewpoint.lights) {
+      const std::vector<Ray> more = workload::shadow_rays(scene, geometry, viewpoint.camera, light, size);
+      rays.insert(rays.end(), more.begin(), more.end());
+      if (rays.size() >= wanted) break;
+    }
+  }
+  return rays;
+}
+
+class SceneAgainstEmbree : public testing::TestWithParam<std::string> {};
+
+TEST_P(SceneAgainstEmbree, NoKernelIsWrong) {
+  if (fs::path(GetParam()).extension() != ".glb") GTEST_SKIP() << "no scenes in " << GetParam();
+  workload::Geometry geometry;
+  Status status = workload::load_geometry(GetParam(), geometry);
+  ASSERT_TRUE(status.ok()) << status.message();
+  const fs::path setup = fs::path(GetParam()).parent_path() / "scenes.json";
+  workload::Viewpoint viewpoint;
+  status = workload::find_viewpoint(geometry, fs::exists(setup) ? setup.string() : "", viewpoint);
+  ASSERT_TRUE(status.ok()) << status.message();
+
+  const std::vector<MeshView> views = geometry.views();
+  Scene scene;
+  embree::EmbreeScene embree_scene;
+  status = workload::build_scene(views, {}, scene);
+  ASSERT_TRUE(status.ok()) << status.message();
+  status = embree_scene.build(views, {});
+  ASSERT_TRUE(status.ok()) << status.message();
+  const std::size_t wanted = test_rays(200'000);
+  const std::vector<Ray> rays = enough_shadow_rays(scene, geometry, viewpoint, wanted);
+  ASSERT_GE(rays.size(), wanted);
+
+  std::vector<std::uint8_t> theirs(rays.size()), ours(rays.size());
+  embree_scene.occluded({rays.data(), rays.size()}, embree::Mode::single, theirs.data());
+  const oracle::BruteForce truth(geometry.triangle_list());
+  std::size_t embree_wrong = 0;
+  for (std::size_t k = 0; k < kernel_count(); ++k) {
+    const std::string kernel = kernel_info(k).name;
+    if (kernel == "brute") continue;
+    SCOPED_TRACE(kernel);
+    QueryOptions options;
+    ASSERT_TRUE(find_kernel(kernel.c_str(), options.kernel).ok());
+    scene.occluded({rays.data(), rays.size()}, ours.data(), options);
+    std::vector<Ray> disputed;
+    std::vector<std::uint8_t> answers;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (ours[i] == theirs[i]) continue;
+      disputed.push_back(rays[i]);
+      answers.push_back(ours[i]);
+    }
+    const std::vector<std::uint8_t> right = truth.occluded(disputed);
+    EXPECT_EQ(answers, right) << "of " << rays.size() << " rays, those disputed with Embree";
+    embree_wrong = 0;
+    for (std::size_t i = 0; i < right.size(); ++i) embree_wrong += answers[i] == right[i] ? 1 : 0;
+  }
+  std::cout << geometry.name << ": " << rays.size() << " rays, Embree wrong on " << embree_wrong << "\n";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneAgainstEmbree, testing::ValuesIn(scene_paths()), [](const auto& info) {
+  std::string name =
+      fs::path(info.param).parent_path().filename().string() + "_" + fs::path(info.param).stem().string();
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace umbrix
