@@ -9,7 +9,7 @@ scripts/install_packages.sh g++ cmake ninja-build pkg-config libtbb-dev libhwy-d
 
 launcher=$(command -v ccache || true)
 cmake --preset release -DUMBRIX_TESTS=OFF -DUMBRIX_BENCH=OFF -B build/demo -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"
-cmake --build build/demo
+cmake --build build/demo --target umbrix_cli
 
 build/demo/apps/umbrix/umbrix render scenes/atrium.glb -o out/atrium.exr -o out/atrium.png \
   --size 1280x720 --spp 16 --create-dir --overwrite
