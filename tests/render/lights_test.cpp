@@ -56,8 +56,8 @@ TEST(Lights, SpotIsFullWithinTheInnerConeAndNothingOutsideTheOuter) {
   EXPECT_EQ(arrive(light, off_axis(0.61)).unreached, Unreached::outside_cone);
   EXPECT_EQ(arrive(light, off_axis(kPi)).unreached, Unreached::outside_cone);
   // Halfway in the cosine, the square of one half.
-  const double middle = std::acos((std::cos(0.2f) + std::cos(0.6f)) / 2);
-  EXPECT_NEAR(arrive(light, off_axis(middle)).irradiance.r, 8 * 0.25, 1e-6);
+  const double middle = std::acos((std::cos(double{0.2f}) + std::cos(double{0.6f})) / 2);
+  EXPECT_NEAR(arrive(light, off_axis(middle)).irradiance.r, 8 * 0.25, 1e-9);
 }
 
 TEST(Lights, SpotOfEqualConesIsFiniteAndSharp) {

@@ -12,8 +12,8 @@ namespace {
 Arrival arrive_from_spot(const io::Light& light, const Vec3& point) {
   Arrival arrival = arrive_from_position(light, point);
   if (arrival.unreached != Unreached::no) return arrival;
-  const double cos_outer = std::cos(light.outer_cone_angle);
-  const double cos_inner = std::cos(light.inner_cone_angle);
+  const double cos_outer = std::cos(double{light.outer_cone_angle});
+  const double cos_inner = std::cos(double{light.inner_cone_angle});
   const double cosine = -glm::dot(glm::normalize(arrival.to_light), to_vec3(light.direction));
   const double ramp = (cosine - cos_outer) / std::max(0.001, cos_inner - cos_outer);
   if (ramp <= 0) {
