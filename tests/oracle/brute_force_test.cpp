@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "case_parameters.h"
 #include "cases/cases.h"
 #include "test_rays.h"
 
@@ -45,14 +46,7 @@ TEST_P(BruteForceCase, AgreesWithExactTestsOfEveryTriangle) {
   EXPECT_GT(occluded, 0u) << "a case whose rays hit nothing tests nothing";
 }
 
-std::vector<const char*> case_names() {
-  std::vector<const char*> names;
-  for (const cases::Case& c : cases::all_cases()) names.push_back(c.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(AllCases, BruteForceCase, testing::ValuesIn(case_names()),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(AllCases, BruteForceCase, testing::ValuesIn(case_names()), case_test_name);
 
 TEST(BruteForce, SeesOnlyVisibleTriangles) {
   const Triangle low = {{{-1, -1, 1}, {2, -1, 1}, {-1, 2, 1}}}, high = {{{-1, -1, 2}, {2, -1, 2}, {-1, 2, 2}}};

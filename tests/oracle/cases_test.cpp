@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "case_parameters.h"
 #include "judge/judge.h"
 #include "judge/minimise.h"
 #include "test_rays.h"
@@ -34,14 +37,7 @@ TEST_P(HardCase, EveryKernelIsRight) {
   }
 }
 
-std::vector<const char*> case_names() {
-  std::vector<const char*> names;
-  for (const cases::Case& c : cases::all_cases()) names.push_back(c.name);
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(AllCases, HardCase, testing::ValuesIn(case_names()),
-                         [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(AllCases, HardCase, testing::ValuesIn(case_names()), case_test_name);
 
 }  // namespace
 }  // namespace umbrix::judge

@@ -4,6 +4,8 @@
 // decide for us. Embree's own errors are printed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -106,9 +108,9 @@ TEST_P(SceneAgainstEmbree, NoKernelIsWrong) {
   std::cout << geometry.name << ": " << rays.size() << " rays, Embree wrong on " << embree_wrong << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SceneAgainstEmbree, testing::ValuesIn(scene_paths()), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneAgainstEmbree, testing::ValuesIn(scene_paths()), [](const auto& parameter) {
   std::string name =
-      fs::path(info.param).parent_path().filename().string() + "_" + fs::path(info.param).stem().string();
+      fs::path(parameter.param).parent_path().filename().string() + "_" + fs::path(parameter.param).stem().string();
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;
 });

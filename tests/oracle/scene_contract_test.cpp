@@ -3,6 +3,7 @@
 // What a host may do to the scene: masks, skipped triangles, opacity tests, and a floating-point mode of its own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
