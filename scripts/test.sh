@@ -28,8 +28,8 @@ if [ "$quick" != --quick ]; then
   mapfile -t sources < <(find apps bench include scenes src tests -name '*.cpp' -o -name '*.h' | sort)
   clang-format --dry-run --Werror "${sources[@]}"
 
-  # The judged rays of the heavy tests are fewer here: sanitizers look for faults in the code, not in the answers.
-  UMBRIX_TEST_RAYS=${UMBRIX_TEST_RAYS:-20000} check_preset asan
+  # Sanitizers look for faults in the code, not in the answers: fewer judged rays (tests/oracle), no large scenes.
+  UMBRIX_SCENES_DIR=none check_preset asan
 
   printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release
 fi
