@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "umbrix/scene.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <new>
@@ -68,6 +69,12 @@ detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
   return {p[0], p[1], p[2]};
 }
 
+/// Reserves for `count` more, growing geometrically: scenes may have many small meshes.
+template <class T>
+void make_room(std::vector<T>& v, std::size_t count) {
+  if (v.capacity() - v.size() < count) v.reserve(std::max(v.size() + count, 2 * v.capacity()));
+}
+
 bool is_finite(const detail::Triangle& triangle) noexcept {
   for (const detail::Vec3& v : triangle.v)
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
@@ -104,11 +111,15 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
           return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
                                                     std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
 
+    // Ask for all memory first: nothing after it can fail half-way.
+    make_room(s.triangles, mesh.triangle_count);
+    make_room(s.kept, mesh.triangle_count);
+    make_room(s.mesh_of, mesh.triangle_count);
+    make_room(s.meshes, 1);
+
     const detail::DefaultFloatMode mode;
     const auto first = static_cast<std::uint32_t>(s.triangles.size());
     const auto number = static_cast<std::uint32_t>(s.meshes.size());
-    s.triangles.reserve(first + mesh.triangle_count);
-    s.kept.reserve(s.kept.size() + mesh.triangle_count);
     s.mesh_of.resize(first + mesh.triangle_count, number);
     s.meshes.push_back({first, static_cast<std::uint32_t>(mesh.triangle_count), mesh.mask, mesh.opacity});
     for (std::size_t i = 0; i < mesh.triangle_count; ++i) {
