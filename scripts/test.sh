@@ -31,7 +31,8 @@ if [ "$quick" != --quick ]; then
   # Sanitizers look for faults in the code, not in the answers: fewer judged rays (tests/oracle), no large scenes.
   UMBRIX_SCENES_DIR=none check_preset asan
 
-  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release
+  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release \
+    2> >(grep -v 'warnings\? generated' >&2)
 fi
 
 printf '%s\n' "${summaries[@]}"
