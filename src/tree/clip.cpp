@@ -33,14 +33,18 @@ void clip(const Polygon& in, int axis, double plane, double sign, Polygon& out) 
   }
 }
 
+/// At least one unit in the last place below or above: cheaper than nextafter, which is a call.
+float below(float x) noexcept { return x - (std::abs(x) * 0x1p-23f + std::numeric_limits<float>::min()); }
+float above(float x) noexcept { return x + (std::abs(x) * 0x1p-23f + std::numeric_limits<float>::min()); }
+
 float round_down(double x) noexcept {
   const float f = static_cast<float>(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -INFINITY) : f;
+  return static_cast<double>(f) > x ? below(f) : f;
 }
 
 float round_up(double x) noexcept {
   const float f = static_cast<float>(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, INFINITY) : f;
+  return static_cast<double>(f) < x ? above(f) : f;
 }
 
 }  // namespace
@@ -75,8 +79,8 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
   return box;
 }
 
-float down_by(float x, float by) noexcept { return std::nextafter(x - by, -INFINITY); }
-float up_by(float x, float by) noexcept { return std::nextafter(x + by, INFINITY); }
+float down_by(float x, float by) noexcept { return below(x - by); }
+float up_by(float x, float by) noexcept { return above(x + by); }
 
 Box grown(const Box& box, float by) noexcept {
   Box result;

@@ -9,7 +9,7 @@ namespace umbrix::detail {
 /// empty if there is none.
 Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept;
 
-/// The next float below or above what x - by or x + by rounds to: never less than `by` away.
+/// A float at least `by` below or above x, and hardly more.
 float down_by(float x, float by) noexcept;
 float up_by(float x, float by) noexcept;
 

@@ -47,24 +47,41 @@ void append_events(const Reference& r, std::uint32_t index, int axis, std::vecto
   events.push_back(Event::end(r.box.upper[axis], index));
 }
 
+/// One side's sorted events while they are written: the parent's in their order, the straddlers' merged in between.
+class EventMerge {
+ public:
+  EventMerge(const Side& side, int axis, std::vector<Event>& out) {
+    for (std::uint32_t i = side.first_straddler; i < side.size(); ++i)
+      append_events(side.cell.references[i], i, axis, fresh_);
+    std::sort(fresh_.begin(), fresh_.end());
+    out.resize(2 * side.cell.references.size());
+    next_ = fresh_.data();
+    end_ = next_ + fresh_.size();
+    to_ = out.data();
+  }
+
+  void add(const Event& e) {
+    while (next_ != end_ && *next_ < e) *to_++ = *next_++;
+    *to_++ = e;
+  }
+  void finish() { std::copy(next_, end_, to_); }
+
+ private:
+  std::vector<Event> fresh_;
+  const Event* next_;
+  const Event* end_;
+  Event* to_;
+};
+
 /// Hands the parent's events on in their order, and merges in those of the straddlers.
 void inherit_events(const std::vector<Event>& parent, const std::vector<Place>& places, int axis, Side (&sides)[2]) {
   const auto k = static_cast<std::size_t>(axis);
-  for (Side& side : sides) side.cell.events[k].reserve(2 * side.cell.references.size());
+  EventMerge merges[2] = {{sides[0], axis, sides[0].cell.events[k]}, {sides[1], axis, sides[1].cell.events[k]}};
   for (const Event& e : parent) {
     const Place to = places[e.reference()];
-    if (to == kNone) continue;
-    sides[to & 1u].cell.events[k].push_back(e.is_start() ? Event::start(e.position, to >> 1)
-                                                         : Event::end(e.position, to >> 1));
+    if (to != kNone) merges[to & 1u].add(e.renumbered(to >> 1));
   }
-  for (Side& side : sides) {
-    std::vector<Event>& events = side.cell.events[k];
-    const auto kept = static_cast<std::ptrdiff_t>(events.size());
-    for (std::uint32_t i = side.first_straddler; i < side.size(); ++i)
-      append_events(side.cell.references[i], i, axis, events);
-    std::sort(events.begin() + kept, events.end());
-    std::inplace_merge(events.begin(), events.begin() + kept, events.end());
-  }
+  for (EventMerge& merge : merges) merge.finish();
 }
 
 }  // namespace
@@ -78,10 +95,14 @@ void sort_events(Cell& cell) {
   }
 }
 
-void partition(Cell& cell, int axis, float plane, const PartitionContext& context, Cell& low, Cell& high) {
+void partition(Cell& cell, const Split& split, const PartitionContext& context, Cell& low, Cell& high) {
+  const int axis = split.axis;
+  const float plane = split.plane;
   low.box = high.box = cell.box;
   low.box.upper[axis] = plane;
   high.box.lower[axis] = plane;
+  low.references.reserve(split.low_count);
+  high.references.reserve(split.high_count);
   const std::size_t count = cell.references.size();
   Side sides[2] = {{low}, {high}};
   std::vector<Place> places(context.keep_events ? count : 0, kNone);

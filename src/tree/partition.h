@@ -16,8 +16,8 @@ struct PartitionContext {
 /// The cell of all references, before the first split: builds and sorts the events if the mode keeps them.
 void sort_events(Cell& cell);
 
-/// Moves the cell's references to the two sides of the plane; the cell is left empty. Sorted events stay sorted: only
+/// Moves the cell's references to the two sides of the split; the cell is left empty. Sorted events stay sorted: only
 /// those of triangles on both sides are made anew (Wald & Havran 2006, section 4.2).
-void partition(Cell& cell, int axis, float plane, const PartitionContext& context, Cell& low, Cell& high);
+void partition(Cell& cell, const Split& split, const PartitionContext& context, Cell& low, Cell& high);
 
 }  // namespace umbrix::detail

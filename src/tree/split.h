@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -29,22 +30,48 @@ struct Reference {
   Box box;
 };
 
-/// Where a reference's box starts or ends along an axis. Ends come first among equals: a box that ends on a plane is
-/// not on its far side.
-struct Event {
-  float position;
-  std::uint32_t reference_and_start;
+/// Where a reference's box starts or ends along an axis, packed so that the order of integers is the order of the
+/// sweep: by position, and at one position ends first (a box that ends on a plane is not on its far side).
+class Event {
+ public:
+  Event() = default;
+  static Event start(float position, std::uint32_t reference) noexcept { return Event(position, reference | kStart); }
+  static Event end(float position, std::uint32_t reference) noexcept { return Event(position, reference); }
 
-  static Event start(float position, std::uint32_t reference) noexcept { return {position, (reference << 1) | 1u}; }
-  static Event end(float position, std::uint32_t reference) noexcept { return {position, reference << 1}; }
-  bool is_start() const noexcept { return (reference_and_start & 1u) != 0; }
-  std::uint32_t reference() const noexcept { return reference_and_start >> 1; }
-
-  friend bool operator<(const Event& a, const Event& b) noexcept {
-    if (a.position != b.position) return a.position < b.position;
-    if (a.is_start() != b.is_start()) return b.is_start();
-    return a.reference_and_start < b.reference_and_start;
+  float position() const noexcept {
+    const std::uint32_t key = position_key();
+    const std::uint32_t bits = (key & kSign) != 0 ? key ^ kSign : ~key;
+    float position;
+    std::memcpy(&position, &bits, sizeof position);
+    return position;
   }
+  /// Grows with the position; equal for equal positions.
+  std::uint32_t position_key() const noexcept { return static_cast<std::uint32_t>(bits_ >> 32); }
+  bool is_start() const noexcept { return (bits_ & kStart) != 0; }
+  std::uint32_t reference() const noexcept { return static_cast<std::uint32_t>(bits_) & ~kStart; }
+
+  /// The same end of the same box, where the reference has another number.
+  Event renumbered(std::uint32_t reference) const noexcept {
+    Event event;
+    event.bits_ = (bits_ & ~std::uint64_t{~kStart}) | reference;
+    return event;
+  }
+
+  friend bool operator<(const Event& a, const Event& b) noexcept { return a.bits_ < b.bits_; }
+
+ private:
+  static constexpr std::uint32_t kSign = 0x80000000u;
+  static constexpr std::uint32_t kStart = 0x80000000u;
+
+  Event(float position, std::uint32_t reference_and_start) noexcept {
+    const float unsigned_zero = position + 0.0f;
+    std::uint32_t bits;
+    std::memcpy(&bits, &unsigned_zero, sizeof bits);
+    const std::uint32_t key = (bits & kSign) != 0 ? ~bits : bits ^ kSign;
+    bits_ = (std::uint64_t{key} << 32) | reference_and_start;
+  }
+
+  std::uint64_t bits_;
 };
 
 /// What is left to build: a cell and what it holds. `events` stay empty in the binned mode.

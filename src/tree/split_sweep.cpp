@@ -13,13 +13,13 @@ Split find_split_by_sweep(const Cell& cell, const SplitCost& cost) {
     std::uint64_t started = 0;
     std::uint64_t not_ended = cell.references.size();
     for (std::size_t i = 0; i < events.size();) {
-      const float plane = events[i].position;
+      const std::uint32_t key = events[i].position_key();
+      const float plane = events[i].position();
       std::uint64_t starts = 0;
-      for (; i < events.size() && events[i].position == plane; ++i) {
-        if (events[i].is_start())
-          ++starts;
-        else
-          --not_ended;
+      for (; i < events.size() && events[i].position_key() == key; ++i) {
+        const bool is_start = events[i].is_start();
+        starts += is_start;
+        not_ended -= !is_start;
       }
       if (cost.admits(axis, plane)) {
         const double c = cost(axis, plane, started, not_ended);

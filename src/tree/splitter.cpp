@@ -76,7 +76,7 @@ class Splitter {
   void descend(Cell& cell, const Split& split, const Heritage& heritage, Cell (&children)[2],
                Heritage (&inherited)[2]) const {
     const std::uint64_t spare = heritage.reference_budget - (split.low_count + split.high_count);
-    partition(cell, split.axis, split.plane, options_.context, children[0], children[1]);
+    partition(cell, split, options_.context, children[0], children[1]);
     const std::uint64_t counts[2] = {children[0].references.size(), children[1].references.size()};
     const double total = static_cast<double>(std::max<std::uint64_t>(1, counts[0] + counts[1]));
     for (int i = 0; i < 2; ++i) {
