@@ -40,7 +40,7 @@ struct Row {
   std::uint64_t described = 0;
 };
 
-constexpr std::uint64_t kChunk = 20'000;
+constexpr std::uint64_t kChunk = 10'000;
 constexpr std::uint64_t kTargetPeriod = 4;  // every fourth chunk is asked on all instruction sets
 constexpr std::uint64_t kClosestShare = 4;  // a quarter of the rays is asked for the closest hit as well
 constexpr std::uint64_t kDescribed = 5;     // wrong answers shown for each case

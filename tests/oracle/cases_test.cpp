@@ -19,8 +19,8 @@ class HardCase : public testing::TestWithParam<const char*> {};
 
 TEST_P(HardCase, EveryKernelIsRight) {
   const cases::Case& c = *cases::find_case(GetParam());
-  const auto rays = static_cast<std::size_t>(static_cast<double>(test_rays(3000)) * c.share) + 1;
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  const auto rays = static_cast<std::size_t>(static_cast<double>(test_rays(1500)) * c.share) + 1;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << " rays " << rays);
     const cases::CaseData data = c.make(seed, rays);
     Options options;

@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path own_folder() { return fs::path(UMBRIX_SOURCE_DIR) / "scenes"; }
+
 fs::path shared_folder() {
   const char* folder = std::getenv("UMBRIX_SCENES_DIR");
   return folder != nullptr ? folder : UMBRIX_SHARED_SCENES;
@@ -32,7 +34,7 @@ fs::path shared_folder() {
 // The project's own scenes and those beside the checkout; the folder's own name stands for scenes that are absent.
 std::vector<std::string> scene_paths() {
   std::vector<std::string> paths;
-  for (const fs::path& folder : {fs::path(UMBRIX_SOURCE_DIR) / "scenes", shared_folder()}) {
+  for (const fs::path& folder : {own_folder(), shared_folder()}) {
     std::error_code error;
     const std::size_t before = paths.size();
     for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -108,12 +110,14 @@ TEST_P(SceneAgainstEmbree, NoKernelIsWrong) {
   std::cout << geometry.name << ": " << rays.size() << " rays, Embree wrong on " << embree_wrong << "\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SceneAgainstEmbree, testing::ValuesIn(scene_paths()), [](const auto& parameter) {
-  std::string name =
-      fs::path(parameter.param).parent_path().filename().string() + "_" + fs::path(parameter.param).stem().string();
+std::string scene_name(const testing::TestParamInfo<std::string>& parameter) {
+  const fs::path path = parameter.param;
+  std::string name = (path.parent_path() == own_folder() ? "own_" : "shared_") + path.stem().string();
   for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
   return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneAgainstEmbree, testing::ValuesIn(scene_paths()), scene_name);
 
 }  // namespace
 }  // namespace umbrix
