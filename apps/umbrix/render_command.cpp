@@ -69,7 +69,7 @@ void add_metadata(const RenderArguments& a, const Size& size, io::Image& image) 
 }
 
 Status write_outputs(const RenderArguments& a, const io::Image& image) {
-  const SignalHold hold;
+  const SignalScope hold(OnSignal::hold);
   for (const std::string& path : a.outputs) {
     if (Status status = check_interrupt(); !status) return status;
     if (Status status = io::write_image(path, image, a.write); !status) return status;
@@ -99,8 +99,8 @@ Status trace(const RenderArguments& a, const io::SceneFile& scene, const render:
   if (Status status = render::build_world(scene, build, world); !status) return status;
   report.seconds_build = watch.lap();
   warn(a, scene, world.notes);
-  if (Status status = check_interrupt(); !status) return status;
 
+  const SignalScope stop(OnSignal::stop);
   Progress progress(a.quiet ? ProgressStyle::none : a.progress);
   render::RenderOptions options = render_options(a, size);
   options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };

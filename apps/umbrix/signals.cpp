@@ -10,14 +10,23 @@ namespace {
 
 std::atomic<bool> interrupted_flag{false};
 std::atomic<int> signal_number{0};
-std::atomic<bool> held{false};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+std::atomic<OnSignal> answer_now{OnSignal::exit};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free &&
+                  std::atomic<OnSignal>::is_always_lock_free,
               "a signal handler may touch lock-free atomics only");
 
+[[noreturn]] void leave(int number) {
+  constexpr char kText[] = "umbrix: interrupted\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kText, sizeof kText - 1);
+  _exit(128 + number);
+}
+
 void on_signal(int number) {
+  const OnSignal answer = answer_now;
+  if (answer == OnSignal::exit) leave(number);
   const bool second = interrupted_flag.exchange(true);
+  if (second && answer != OnSignal::hold) leave(number);
   if (!second) signal_number = number;
-  if (second && !held) _exit(128 + number);
 }
 
 }  // namespace
@@ -34,8 +43,8 @@ const std::atomic<bool>& interrupted() { return interrupted_flag; }
 
 int received_signal() { return signal_number; }
 
-SignalHold::SignalHold() { held = true; }
+SignalScope::SignalScope(OnSignal answer) : before_(answer_now.exchange(answer)) {}
 
-SignalHold::~SignalHold() { held = false; }
+SignalScope::~SignalScope() { answer_now = before_; }
 
 }  // namespace umbrix::app

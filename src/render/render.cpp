@@ -20,6 +20,9 @@ namespace {
 
 constexpr int kTileSize = 32;
 
+/// 4 GB of colour; more is asked for by mistake, or is better rendered as crops.
+constexpr std::uint64_t kMostPixels = 1u << 28;
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -139,6 +142,10 @@ Status find_window(const RenderOptions& options, PixelRect& window) {
                         crop.y, options.width, options.height)};
   }
   window = {crop.x, crop.y, crop.width, crop.height};
+  if (window.size() > kMostPixels) {
+    return {StatusCode::resource_limit, fmt::format("{}x{} pixels are more than the limit of {} in one image",
+                                                    crop.width, crop.height, kMostPixels)};
+  }
   return {};
 }
 

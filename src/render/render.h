@@ -49,7 +49,8 @@ std::vector<AovInfo> known_aovs();
 /// "point", "spot", "directional".
 const char* light_type_name(io::LightType type);
 
-/// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it.
+/// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it; or with
+/// resource_limit for more than 2^28 pixels.
 Status check_options(const RenderOptions& options);
 
 /// Renders direct light into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on

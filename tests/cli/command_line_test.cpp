@@ -74,6 +74,13 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
   }
 }
 
+TEST_F(CommandLine, MoreThanTheLimitsIsSix) {
+  const Outcome outcome = render({"--size", "65536x65536"});
+  EXPECT_EQ(outcome.code, 6);
+  EXPECT_TRUE(contains(outcome.err, "65536x65536")) << outcome.err;
+  EXPECT_EQ(render({"--size", "65536x65536", "--crop", "4x4+60000+30000"}).code, 0) << "a part is small enough";
+}
+
 TEST_F(CommandLine, MissingPartsAreUsageErrors) {
   EXPECT_EQ(run({}).code, 2);
   EXPECT_EQ(run({"paint"}).code, 2);
