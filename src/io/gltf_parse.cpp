@@ -76,7 +76,7 @@ fs::path buffer_path(const std::string& scene_path, const std::string& uri, cons
   if (has_scheme(uri)) bad_input("{}: '{}' is not a relative path; only local files are read", label, shown);
   fs::path folder = fs::path(scene_path).parent_path();
   if (folder.empty()) folder = ".";
-  const fs::path path = folder / name;
+  fs::path path = folder / name;
   if (!limits.allow_paths_outside && (fs::path(name).is_absolute() || !lies_within(path, folder))) {
     bad_input("{}: '{}' leads outside the scene file's folder", label, shown);
   }
