@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -10,7 +11,7 @@
 #include "message.h"
 #include "output_files.h"
 #include "render/threads.h"
-#include "render_arguments.h"
+#include "render_job.h"
 #include "render_report.h"
 #include "signals.h"
 #include "thread_count.h"
@@ -22,30 +23,23 @@ namespace {
 
 class Stopwatch {
  public:
-  /// Seconds since the last lap.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - start_).count();
-    start_ = now;
-    return seconds;
-  }
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Status check_interrupt() { return interrupted() ? Status(StatusCode::cancelled, "interrupted") : Status(); }
-
 Size frame_size(const RenderArguments& a, const io::Camera& camera) {
   if (a.size) return *a.size;
   constexpr int kRows = 720;
-  return {std::max(1, static_cast<int>(std::lround(kRows * natural_aspect(camera)))), kRows};
+  return {static_cast<int>(std::clamp(std::round(kRows * natural_aspect(camera)), 1.0, 65536.0)), kRows};
 }
 
-render::RenderOptions render_options(const RenderArguments& a, const Size& size) {
+render::RenderOptions render_options(const RenderJob& job) {
+  const RenderArguments& a = job.arguments;
   render::RenderOptions options;
-  options.width = size.width;
-  options.height = size.height;
+  options.width = job.size.width;
+  options.height = job.size.height;
   options.crop = a.crop;
   options.samples = a.samples;
   options.seed = a.seed;
@@ -57,100 +51,114 @@ render::RenderOptions render_options(const RenderArguments& a, const Size& size)
 }
 
 /// Says in the file how it was made, without anything that differs between runs, machines or kernels.
-void add_metadata(const RenderArguments& a, const Size& size, io::Image& image) {
+void add_metadata(RenderJob& job) {
+  const RenderArguments& a = job.arguments;
+  io::Image& image = job.image;
   image.metadata = {{"Software", fmt::format("umbrix {}", version_string())},
                     {"umbrix:seed", std::to_string(a.seed)},
                     {"umbrix:spp", std::to_string(a.samples)}};
   if (a.crop) {
     const render::Crop& c = *a.crop;
     image.metadata.emplace_back("umbrix:crop", fmt::format("{}x{}+{}+{}", c.width, c.height, c.x, c.y));
-    image.metadata.emplace_back("umbrix:frame_size", fmt::format("{}x{}", size.width, size.height));
+    image.metadata.emplace_back("umbrix:frame_size", fmt::format("{}x{}", job.size.width, job.size.height));
   }
 }
 
-Status write_outputs(const RenderArguments& a, const io::Image& image) {
-  const SignalScope hold(OnSignal::hold);
-  for (const std::string& path : a.outputs) {
-    if (Status status = check_interrupt(); !status) return status;
-    if (Status status = io::write_image(path, image, a.write); !status) return status;
-  }
-  return {};
+void warn(const RenderJob& job) {
+  if (job.arguments.quiet) return;
+  for (const std::string& text : job.scene.warnings) say_warning(text);
+  for (const std::string& text : job.world.notes) say_warning(text);
+  if (!job.arguments.verbose) return;
+  for (const std::string& text : job.scene.ignored) say(fmt::format("umbrix: ignored: {}", text));
 }
 
-void warn(const RenderArguments& a, const io::SceneFile& scene, const std::vector<std::string>& notes) {
-  if (a.quiet) return;
-  for (const std::string& text : scene.warnings) say_warning(text);
-  for (const std::string& text : notes) say_warning(text);
-  if (!a.verbose) return;
-  for (const std::string& text : scene.ignored) say(fmt::format("umbrix: ignored: {}", text));
+void describe_plan(const RenderJob& job) {
+  fmt::print("{}: {} triangles, {} lights, {}x{} pixels, {} samples\n", printable(job.scene.path),
+             job.scene.instanced_triangles(), job.view.lights.size(), job.size.width, job.size.height,
+             job.arguments.samples);
+  for (const std::string& path : job.arguments.outputs) fmt::print("would write {}\n", printable(path));
 }
 
-void describe_plan(const RenderArguments& a, const io::SceneFile& scene, const render::View& view, const Size& size) {
-  fmt::print("{}: {} triangles, {} lights, {}x{} pixels, {} samples\n", printable(scene.path),
-             scene.instanced_triangles(), view.lights.size(), size.width, size.height, a.samples);
-  for (const std::string& path : a.outputs) fmt::print("would write {}\n", printable(path));
-}
-
-Status trace(const RenderArguments& a, const io::SceneFile& scene, const render::View& view, const Size& size,
-             RenderReport& report, render::World& world, render::RenderStats& stats, io::Image& image) {
-  Stopwatch watch;
-  BuildOptions build;
-  build.quality = a.build_quality;
-  if (Status status = render::build_world(scene, build, world); !status) return status;
-  report.seconds_build = watch.lap();
-  warn(a, scene, world.notes);
-
-  const SignalScope stop(OnSignal::stop);
-  Progress progress(a.quiet ? ProgressStyle::none : a.progress);
-  render::RenderOptions options = render_options(a, size);
-  options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
-  const Status status = render::render(world, view, options, image, stats);
-  progress.finish();
-  report.seconds_render = watch.lap();
-  return status;
-}
-
-Status run(const RenderArguments& a) {
-  Stopwatch watch;
+/// Reads the inputs and checks all that can be checked before work begins.
+Status load(RenderJob& job) {
+  const Stopwatch watch;
+  const RenderArguments& a = job.arguments;
   if (!a.create_folders) {
     if (Status status = check_outputs(a); !status) return status;
   }
-  io::SceneFile scene;
-  if (Status status = io::load_scene(a.scene, scene); !status) return status;
-  render::View view;
-  if (Status status = choose_view(scene, a.setup, a.camera, view); !status) return status;
-  const Size size = frame_size(a, view.camera);
-  if (Status status = render::check_options(render_options(a, size)); !status) return status;
-  const double seconds_load = watch.lap();
-  if (a.dry_run) {
-    describe_plan(a, scene, view, size);
-    return {};
-  }
-  if (a.create_folders) {
+  if (Status status = io::load_scene(a.scene, job.scene); !status) return status;
+  if (Status status = choose_view(job.scene, a.setup, a.camera, job.view); !status) return status;
+  job.size = frame_size(a, job.view.camera);
+  if (Status status = render::check_options(render_options(job)); !status) return status;
+  if (a.create_folders && !a.dry_run) {
     if (Status status = create_output_folders(a); !status) return status;
     if (Status status = check_outputs(a); !status) return status;
   }
-
-  render::World world;
-  render::RenderStats stats;
-  io::Image image;
-  RenderReport report = {a, scene, world, view, stats, size.width, size.height};
-  report.threads = a.threads > 0 ? a.threads : allowed_threads();
-  report.seconds_load = seconds_load;
-  Status status;
-  render::with_threads(report.threads, [&] { status = trace(a, scene, view, size, report, world, stats, image); });
-  if (!status) return status;
-
-  watch.lap();
-  add_metadata(a, size, image);
-  if (status = write_outputs(a, image); !status) return status;
-  report.seconds_write = watch.lap();
-  if (!a.stats.empty()) {
-    if (status = io::write_text(a.stats, stats_text(report), a.write.overwrite); !status) return status;
-  }
-  if (a.quiet) return {};
-  for (const std::string& line : summary(report)) say(line);
+  job.seconds.load = watch.seconds();
   return {};
+}
+
+Status build(RenderJob& job) {
+  const Stopwatch watch;
+  BuildOptions options;
+  options.quality = job.arguments.build_quality;
+  Status status = render::build_world(job.scene, options, job.world);
+  job.seconds.build = watch.seconds();
+  return status;
+}
+
+Status trace(RenderJob& job) {
+  const SignalScope stop(OnSignal::stop);
+  const Stopwatch watch;
+  Progress progress(job.arguments.quiet ? ProgressStyle::none : job.arguments.progress);
+  render::RenderOptions options = render_options(job);
+  options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
+  Status status = render::render(job.world, job.view, options, job.image, job.stats);
+  progress.finish();
+  job.seconds.render = watch.seconds();
+  return status;
+}
+
+Status write_images(RenderJob& job) {
+  const SignalScope hold(OnSignal::hold);
+  const Stopwatch watch;
+  add_metadata(job);
+  for (const std::string& path : job.arguments.outputs) {
+    if (interrupted()) return {StatusCode::cancelled, "interrupted"};
+    if (Status status = io::write_image(path, job.image, job.arguments.write); !status) return status;
+  }
+  job.seconds.write = watch.seconds();
+  return {};
+}
+
+Status write_report(const RenderJob& job) {
+  const RenderArguments& a = job.arguments;
+  if (!a.quiet) {
+    for (const std::string& line : summary(job)) say(line);
+  }
+  if (a.stats.empty()) return {};
+  const SignalScope hold(OnSignal::hold);
+  return io::write_text(a.stats, stats_text(job), a.write.overwrite);
+}
+
+Status run(const RenderArguments& a) {
+  RenderJob job(a);
+  if (Status status = load(job); !status) return status;
+  if (a.dry_run) {
+    describe_plan(job);
+    return {};
+  }
+  job.threads = a.threads > 0 ? a.threads : allowed_threads();
+  Status status;
+  render::with_threads(job.threads, [&] {
+    status = build(job);
+    if (!status) return;
+    warn(job);
+    status = trace(job);
+  });
+  if (status.ok()) status = write_images(job);
+  if (status.ok()) status = write_report(job);
+  return status;
 }
 
 }  // namespace

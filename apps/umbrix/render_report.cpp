@@ -67,57 +67,57 @@ Json build(const BuildStats& b) {
 
 }  // namespace
 
-std::vector<std::string> summary(const RenderReport& r) {
-  const BuildStats& b = r.world.scene.build_stats();
-  const render::LightStats shadow = r.stats.shadow();
+std::vector<std::string> summary(const RenderJob& job) {
+  const BuildStats& b = job.world.scene.build_stats();
+  const render::LightStats shadow = job.stats.shadow();
   const std::uint64_t skipped =
       shadow.skipped_behind + shadow.skipped_range + shadow.skipped_cone + shadow.skipped_no_power;
   const double share_occluded = 100 * ratio(static_cast<double>(shadow.occluded), static_cast<double>(shadow.rays()));
-  return {fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, r.world.meshes.size(),
-                      r.view.lights.size()),
+  return {fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, job.world.meshes.size(),
+                      job.view.lights.size()),
           fmt::format("tree    {} nodes, depth {}, {:.1f} MB", b.nodes, b.depth, mega(b.bytes)),
-          fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(r.stats.camera_rays),
-                      ratio(mega(r.stats.camera_rays), r.stats.camera_seconds)),
+          fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(job.stats.camera_rays),
+                      ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)),
           fmt::format("shadow  {:.2f} M rays, {:.0f} % occluded, {:.2f} M rays/s a thread, {:.2f} M skipped",
                       mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds), mega(skipped)),
           fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
-                      r.seconds_load, r.seconds_build, r.seconds_render, r.threads, r.seconds_write)};
+                      job.seconds.load, job.seconds.build, job.seconds.render, job.threads, job.seconds.write)};
 }
 
-std::string stats_text(const RenderReport& r) {
-  const render::LightStats shadow = r.stats.shadow();
+std::string stats_text(const RenderJob& job) {
+  const render::LightStats shadow = job.stats.shadow();
   Json lights = Json::array();
-  for (std::size_t i = 0; i < r.view.lights.size(); ++i) {
-    Json light = {{"name", r.view.lights[i].name}, {"type", render::light_type_name(r.view.lights[i].type)}};
-    light.update(shadow_rays(r.stats.lights[i]));
+  for (std::size_t i = 0; i < job.view.lights.size(); ++i) {
+    Json light = {{"name", job.view.lights[i].name}, {"type", render::light_type_name(job.view.lights[i].type)}};
+    light.update(shadow_rays(job.stats.lights[i]));
     lights.push_back(light);
   }
   const Json stats = {{"umbrix", version_string()},
-                      {"scene", r.scene.path},
-                      {"outputs", r.arguments.outputs},
-                      {"width", r.width},
-                      {"height", r.height},
-                      {"samples_per_pixel", r.arguments.samples},
-                      {"seed", r.arguments.seed},
-                      {"triangles", r.world.scene.build_stats().triangles},
-                      {"kernel", r.arguments.kernel_name},
-                      {"simd_target", simd_target(r.arguments)},
-                      {"threads", r.threads},
+                      {"scene", job.scene.path},
+                      {"outputs", job.arguments.outputs},
+                      {"width", job.size.width},
+                      {"height", job.size.height},
+                      {"samples_per_pixel", job.arguments.samples},
+                      {"seed", job.arguments.seed},
+                      {"triangles", job.world.scene.build_stats().triangles},
+                      {"kernel", job.arguments.kernel_name},
+                      {"simd_target", simd_target(job.arguments)},
+                      {"threads", job.threads},
                       {"seconds",
-                       {{"load", r.seconds_load},
-                        {"build", r.seconds_build},
-                        {"render", r.seconds_render},
-                        {"write", r.seconds_write}}},
-                      {"build", build(r.world.scene.build_stats())},
+                       {{"load", job.seconds.load},
+                        {"build", job.seconds.build},
+                        {"render", job.seconds.render},
+                        {"write", job.seconds.write}}},
+                      {"build", build(job.world.scene.build_stats())},
                       {"camera",
-                       {{"rays", r.stats.camera_rays},
-                        {"hits", r.stats.camera_hits},
-                        {"thread_seconds", r.stats.camera_seconds},
-                        {"mrays_per_second_per_thread", ratio(mega(r.stats.camera_rays), r.stats.camera_seconds)}}},
+                       {{"rays", job.stats.camera_rays},
+                        {"hits", job.stats.camera_hits},
+                        {"thread_seconds", job.stats.camera_seconds},
+                        {"mrays_per_second_per_thread", ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)}}},
                       {"shadow", shadow_rays(shadow)},
                       {"lights", lights},
-                      {"mrays_per_second", ratio(mega(r.stats.camera_rays + shadow.rays()), r.seconds_render)},
-                      {"notes", r.world.notes}};
+                      {"mrays_per_second", ratio(mega(job.stats.camera_rays + shadow.rays()), job.seconds.render)},
+                      {"notes", job.world.notes}};
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
   return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
