@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
+#include <map>
 
 #include "umbrix/io/scene_file.h"
 
@@ -54,46 +55,55 @@ Box scene_box(const SceneFile& scene) {
   return box;
 }
 
-// The centres of some ten thousand of the scene's triangles, evenly picked.
-std::vector<glm::dvec3> sample_centres(const SceneFile& scene) {
-  constexpr std::uint64_t kSamples = 1u << 14;
-  const std::uint64_t step = scene.instanced_triangles() / kSamples + 1;
-  std::vector<glm::dvec3> centres;
-  std::uint64_t next = 0;
+// Distances from a point, weighted, in bins of a sixteenth of an octave.
+class DistanceHistogram {
+ public:
+  void add(double distance, double weight) {
+    if (!(distance > 0) || !std::isfinite(distance) || !(weight > 0)) return;
+    const double bin = kBinsPerOctave * std::log2(distance);
+    weights_[static_cast<int>(std::floor(bin))] += weight;
+    total_ += weight;
+  }
+  // 0 if nothing was added.
+  double median() const {
+    double sum = 0;
+    for (const auto& [bin, weight] : weights_) {
+      sum += weight;
+      if (2 * sum >= total_) return std::exp2((bin + 0.5) / kBinsPerOctave);
+    }
+    return 0;
+  }
+
+ private:
+  static constexpr double kBinsPerOctave = 16;
+  std::map<int, double> weights_;
+  double total_ = 0;
+};
+
+// How far what a light shines on is: each triangle counts by the part of the light's sphere it may cover, so that
+// neither a distant landscape nor a crowd of small triangles decides.
+double median_distance(const SceneFile& scene, const glm::dvec3& light) {
+  DistanceHistogram distances;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    for (; next < mesh.triangles.size(); next += step) {
-      glm::dvec3 sum(0);
-      for (const std::uint32_t v : mesh.triangles[next]) sum += to_world(instance.to_world, point(mesh.positions[v]));
-      if (std::isfinite(sum.x + sum.y + sum.z)) centres.push_back(sum / 3.0);
+    for (const std::array<std::uint32_t, 3>& triangle : mesh.triangles) {
+      glm::dvec3 v[3];
+      for (std::size_t k = 0; k < 3; ++k) v[k] = to_world(instance.to_world, point(mesh.positions[triangle[k]]));
+      const double area = 0.5 * glm::length(glm::cross(v[1] - v[0], v[2] - v[0]));
+      const double distance = glm::length((v[0] + v[1] + v[2]) / 3.0 - light);
+      distances.add(distance, std::min(area / (distance * distance), 2 * kPi));
     }
-    next -= mesh.triangles.size();
   }
-  return centres;
-}
-
-// A white diffuse surface facing a light of I candela at distance d has radiance I / (pi d^2).
-float candela_for(double distance) {
-  const auto intensity = static_cast<float>(kPi * distance * distance);
-  return intensity > 0 && std::isfinite(intensity) ? intensity : 1.0f;
+  return distances.median();
 }
 
 }  // namespace
 
-float default_intensity(const SceneFile& scene, std::size_t lights) {
-  const Box box = scene_box(scene);
-  const float all = candela_for(box.empty() ? 0 : 0.3 * glm::length(box.upper - box.lower));
-  return all / static_cast<float>(std::max<std::size_t>(lights, 1));
-}
-
 float default_intensity(const SceneFile& scene, const Double3& position) {
-  const glm::dvec3 light(position[0], position[1], position[2]);
-  std::vector<double> distances;
-  for (const glm::dvec3& centre : sample_centres(scene)) distances.push_back(glm::length(centre - light));
-  if (distances.empty()) return default_intensity(scene, 1);
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return candela_for(*middle);
+  // A white diffuse surface facing a light of I candela at distance d has radiance I / (pi d^2).
+  const double distance = median_distance(scene, {position[0], position[1], position[2]});
+  const auto intensity = static_cast<float>(0.5 * kPi * distance * distance);
+  return intensity > 0 && std::isfinite(intensity) ? intensity : 1.0f;
 }
 
 Camera framing_camera(const SceneFile& scene) {

@@ -44,8 +44,10 @@ TEST(SetupFile, Lights) {
   ASSERT_EQ(r.setup.lights.size(), 3u);
   EXPECT_EQ(r.setup.lights[0].type, LightType::point);
   EXPECT_EQ(r.setup.lights[0].position, (Double3{1, 2, 3}));
-  // The triangle's centre is at (1, 1, 0) / 3: pi times the squared distance.
-  EXPECT_NEAR(r.setup.lights[0].intensity, kPi * (4.0 / 9 + 25.0 / 9 + 9), 1e-3);
+  // The triangle's centre is at (1, 1, 0) / 3: half of pi times the squared distance, which is known to the half of a
+  // sixteenth of an octave.
+  const double expected = 0.5 * kPi * (4.0 / 9 + 25.0 / 9 + 9);
+  EXPECT_NEAR(r.setup.lights[0].intensity, expected, (std::exp2(1.0 / 16) - 1) * expected);
   EXPECT_EQ(r.setup.lights[1].direction, (Double3{0, -1, 0}));
   EXPECT_EQ(r.setup.lights[1].intensity, 9);
   EXPECT_EQ(r.setup.lights[1].range, 4);

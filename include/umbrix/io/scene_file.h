@@ -127,13 +127,8 @@ struct Setup {
 /// docs/setup.md has the format.
 UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out);
 
-/// The intensity in candela at which `lights` point lights together give a white surface that faces them, at 0.3 of the
-/// scene's diagonal, a radiance of about 1.
-UMBRIX_API float default_intensity(const SceneFile& scene, std::size_t lights);
-
-/// The intensity in candela at which a point light at `position` gives a white surface that faces it, as far off as the
-/// middle one of the scene's triangles by distance, a radiance of 1. Neither stray objects nor a landscape around a
-/// room matter. Looks at some ten thousand triangles.
+/// The intensity in candela that a light at `position` needs to give a white surface that faces it a radiance of 0.5 at
+/// the median distance of what it may shine on (triangles weighted by area over squared distance).
 UMBRIX_API float default_intensity(const SceneFile& scene, const Double3& position);
 
 /// A camera that frames the scene, for files that have none.
