@@ -6,7 +6,8 @@
 
 namespace umbrix {
 
-/// Work done for a set of rays. Deterministic for a given kernel, tree and instruction set width of 8.
+/// Work done for a set of rays. Node and primitive tests depend on the scene, the kernel and the rays only; how many
+/// tests needed more than float depends on the instruction set as well.
 struct RayCounts {
   std::uint64_t rays = 0;
   std::uint64_t invalid_rays = 0;     ///< answered "no hit" without a walk (see Ray)
