@@ -37,11 +37,11 @@ Json lights(const io::SceneFile& scene) {
   Json list = Json::array();
   for (const io::Light& light : scene.lights) {
     Json entry = {{"name", light.name},
-                  {"type", render::light_type_name(light.type)},
+                  {"type", io::light_type_info(light.type).name},
                   {"color", light.color},
                   {"intensity", light.intensity}};
-    if (light.type != io::LightType::directional) entry["position"] = light.position;
-    if (light.type != io::LightType::point) entry["direction"] = light.direction;
+    if (io::light_type_info(light.type).has_position) entry["position"] = light.position;
+    if (io::light_type_info(light.type).has_direction) entry["direction"] = light.direction;
     list.push_back(entry);
   }
   return list;

@@ -88,7 +88,7 @@ std::string stats_text(const RenderJob& job) {
   const render::LightStats shadow = job.stats.shadow();
   Json lights = Json::array();
   for (std::size_t i = 0; i < job.view.lights.size(); ++i) {
-    Json light = {{"name", job.view.lights[i].name}, {"type", render::light_type_name(job.view.lights[i].type)}};
+    Json light = {{"name", job.view.lights[i].name}, {"type", io::light_type_info(job.view.lights[i].type).name}};
     light.update(shadow_rays(job.stats.lights[i]));
     lights.push_back(light);
   }

@@ -83,10 +83,9 @@ Camera read_camera(const json& object) {
 LightType light_type(const json& object, const std::string& label) {
   const json& value = member(object, "type", label);
   const std::string name = value.is_string() ? value.get<std::string>() : value.dump();
-  if (name == "point") return LightType::point;
-  if (name == "spot") return LightType::spot;
-  if (name == "directional") return LightType::directional;
-  bad_input("{}: type '{}' is none of point, spot, directional", label, printable(name, 32));
+  LightType type;
+  if (!find_light_type(name, type)) bad_input("{}: there is no type '{}'", label, printable(name, 32));
+  return type;
 }
 
 void read_cone(const json& object, const std::string& label, Light& light) {
@@ -109,10 +108,11 @@ Light read_light_object(const json& object, const std::string& label, const Scen
   Light light;
   light.type = light_type(object, label);
   if (object.contains("name") && object.at("name").is_string()) light.name = object.at("name").get<std::string>();
-  if (light.type != LightType::directional) {
+  const LightTypeInfo& type = light_type_info(light.type);
+  if (type.has_position) {
     light.position = triple(member(object, "position", label), -kLargest, label + ".position");
   }
-  if (light.type != LightType::point) {
+  if (type.has_direction) {
     const Double3 d = triple(member(object, "direction", label), -kLargest, label + ".direction");
     const glm::dvec3 v = unit({d[0], d[1], d[2]}, label, "the direction is zero");
     light.direction = {v.x, v.y, v.z};
@@ -124,14 +124,12 @@ Light read_light_object(const json& object, const std::string& label, const Scen
   if (object.contains("intensity")) {
     light.intensity = static_cast<float>(number(object.at("intensity"), 0, kLargest, label + ".intensity"));
   } else {
-    // A white surface that faces the light gets a radiance of one.
-    light.intensity =
-        light.type == LightType::directional ? static_cast<float>(kPi) : default_intensity(scene, light.position);
+    light.intensity = type.has_position ? default_intensity(scene, light.position) : static_cast<float>(kPi);
   }
   if (object.contains("range")) {
     light.range = static_cast<float>(number(object.at("range"), 1e-30, kLargest, label + ".range"));
   }
-  if (light.type == LightType::spot) read_cone(object, label, light);
+  if (type.has_cone) read_cone(object, label, light);
   return light;
 }
 

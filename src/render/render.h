@@ -46,9 +46,6 @@ struct AovInfo {
 /// What RenderOptions::aovs may name.
 std::vector<AovInfo> known_aovs();
 
-/// "point", "spot", "directional".
-const char* light_type_name(io::LightType type);
-
 /// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it; or with
 /// resource_limit for more than 2^28 pixels.
 Status check_options(const RenderOptions& options);

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "built_scenes.h"
 #include "render/lights/light.h"
@@ -80,10 +82,15 @@ TEST(Lights, DirectionalIsTheSameEverywhereAndInfinitelyFar) {
   }
 }
 
-TEST(Lights, EveryTypeIsInTheTable) {
-  for (const auto type : {io::LightType::point, io::LightType::spot, io::LightType::directional}) {
-    EXPECT_EQ(light_kind(type).type, type);
+TEST(Lights, EveryTypeIsFoundByItsNameAndShinesByItsOwnRule) {
+  std::set<Arrival (*)(const io::Light&, const Vec3&)> rules;
+  for (const io::LightTypeInfo& info : io::kLightTypes) {
+    io::LightType type;
+    ASSERT_TRUE(io::find_light_type(info.name, type));
+    EXPECT_STREQ(io::light_type_info(type).name, info.name);
+    rules.insert(light_kind(type).arrive);
   }
+  EXPECT_EQ(rules.size(), std::size(io::kLightTypes));
 }
 
 }  // namespace

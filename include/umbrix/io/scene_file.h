@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "umbrix/export.h"
+#include "umbrix/io/light_types.h"
 #include "umbrix/status.h"
 
 /// glTF 2.0 in: plain data, checked and in one form, whatever the file's encoding.
@@ -53,8 +54,6 @@ struct Instance {
   std::uint32_t mesh = 0;
   Transform to_world = kIdentity;
 };
-
-enum class LightType { point, spot, directional };
 
 /// A punctual light in world space (KHR_lights_punctual): candela for point and spot, lux for directional.
 struct Light {

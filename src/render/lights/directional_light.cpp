@@ -18,7 +18,6 @@ Arrival arrive_from_direction(const io::Light& light, const Vec3&) {
 
 }  // namespace
 
-extern const LightKind kDirectionalLight;
-const LightKind kDirectionalLight = {io::LightType::directional, "directional", arrive_from_direction};
+extern const LightKind k_directional_light = {arrive_from_direction};
 
 }  // namespace umbrix::render

@@ -17,10 +17,8 @@ struct Arrival {
   Rgb irradiance{0};  ///< on a surface that faces the light
 };
 
-/// What a type of light does. Adding one is a file with a LightKind and a line in light_table.cpp.
+/// What a type of light does. Adding one is a file with a LightKind and a line in umbrix/io/light_types.h.
 struct LightKind {
-  io::LightType type;
-  const char* name;
   Arrival (*arrive)(const io::Light& light, const Vec3& point);
 };
 

@@ -24,7 +24,6 @@ Arrival arrive_from_position(const io::Light& light, const Vec3& point) {
   return arrival;
 }
 
-extern const LightKind kPointLight;
-const LightKind kPointLight = {io::LightType::point, "point", arrive_from_position};
+extern const LightKind k_point_light = {arrive_from_position};
 
 }  // namespace umbrix::render

@@ -27,7 +27,6 @@ Arrival arrive_from_spot(const io::Light& light, const Vec3& point) {
 
 }  // namespace
 
-extern const LightKind kSpotLight;
-const LightKind kSpotLight = {io::LightType::spot, "spot", arrive_from_spot};
+extern const LightKind k_spot_light = {arrive_from_spot};
 
 }  // namespace umbrix::render

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/oiio_output.h"
+#include "io/formats/oiio_output.h"
 
 #include "umbrix/version.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "io/formats/oiio_output.h"
 #include "io/image_formats.h"
-#include "io/oiio_output.h"
 
 namespace umbrix::io::detail {
 namespace {
