@@ -6,8 +6,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 quick=${1:-}
 jobs=$(nproc)
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # checkouts of the same sources share what they compiled
 
-scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache clang-format clang-tidy \
+scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache clang-format-14 clang-tidy-14 \
   libtbb-dev libhwy-dev libglm-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev \
   libtinygltf-dev libopenimageio-dev libembree-dev libgtest-dev
 
@@ -26,12 +27,12 @@ check_preset release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 
 if [ "$quick" != --quick ]; then
   mapfile -t sources < <(find apps bench include scenes src tests -name '*.cpp' -o -name '*.h' | sort)
-  clang-format --dry-run --Werror "${sources[@]}"
+  clang-format-14 --dry-run --Werror "${sources[@]}"
 
   # Sanitizers look for faults in the code, not in the answers: fewer judged rays (tests/oracle), no large scenes.
   UMBRIX_SCENES_DIR=none check_preset asan
 
-  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy -quiet -p build/release \
+  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy-14 -quiet -p build/release \
     2> >(grep -v 'warnings\? generated' >&2)
 fi
 

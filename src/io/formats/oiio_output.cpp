@@ -5,8 +5,8 @@
 
 namespace umbrix::io::detail {
 
-Status write_with_oiio(const char* format, const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                       const void* pixels) {
+Status write_with_oiio(const char* format, const std::string& path, const OIIO::ImageSpec& spec,
+                       const OIIO::TypeDesc& type, const void* pixels) {
   // By format name: the temporary name has no extension that OpenImageIO could choose by.
   const auto output = OIIO::ImageOutput::create(format);
   if (!output) return {StatusCode::output_failed, "OpenImageIO cannot write this format: " + OIIO::geterror()};

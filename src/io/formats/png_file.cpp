@@ -27,7 +27,7 @@ std::uint8_t display_value(float linear, float scale, ToneMap tone_map) {
   if (tone_map == ToneMap::aces) x = aces(x);
   x = std::min(x, 1.0f);
   if (tone_map != ToneMap::none) x = srgb_curve(x);
-  return static_cast<std::uint8_t>(std::min(x, 1.0f) * 255 + 0.5f);
+  return static_cast<std::uint8_t>(std::lround(std::min(x, 1.0f) * 255));
 }
 
 }  // namespace
