@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/triangle_test.h"
+#include "kernels/counts.h"
 #include "tree/tree.h"
 #include "umbrix/mesh.h"
 #include "umbrix/scene.h"
@@ -55,8 +56,8 @@ class Filter {
     const OpacityTest& test = scene_.meshes[scene_.mesh_of[id]].opacity;
     if (!test.opaque) return true;
     OrderedHit hit;
-    NoTest no_test;
-    hits(ray, scene_.triangles[id], hit, no_test);
+    NoCounts none;  // the test was counted when the hit was found
+    hits(ray, scene_.triangles[id], hit, none);
     return is_opaque(id, hit.parameters);
   }
 
@@ -69,12 +70,6 @@ class Filter {
   }
 
  private:
-  /// The tests were counted when the hit was found.
-  struct NoTest {
-    void double_test() noexcept {}
-    void exact_test() noexcept {}
-  };
-
   std::uint32_t mask_of(std::uint32_t id) const noexcept { return scene_.meshes[scene_.mesh_of[id]].mask; }
 
   const SceneView& scene_;
