@@ -8,9 +8,10 @@ quick=${1:-}
 jobs=$(nproc)
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # checkouts of the same sources share what they compiled
 
+# openimageio-tools: OpenImageIO's CMake files insist on its programs.
 scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache clang-format-14 clang-tidy-14 \
   libtbb-dev libhwy-dev libglm-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev \
-  libtinygltf-dev libopenimageio-dev libembree-dev libgtest-dev
+  libtinygltf-dev libopenimageio-dev openimageio-tools libembree-dev libgtest-dev
 
 # Configures, builds and tests a preset; keeps ctest's summary for the last lines of the log.
 summaries=()
