@@ -15,8 +15,6 @@
 
 #include <hwy/highway.h>
 
-#include <limits>
-
 #include "kernels/scene_view.h"
 #include "kernels/walk-inl.h"
 

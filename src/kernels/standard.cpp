@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include <cmath>
+#include <limits>
 
 #include "kernels/far_ray.h"
 #include "kernels/leaf_test-inl.h"
