@@ -47,7 +47,7 @@ struct Peer {
 constexpr std::size_t kBruteTriangles = 2000;
 constexpr const char* kReferenceEmbree = "embree:single:robust";
 
-Status add_kernels(const Settings& settings, const Scene& scene, std::size_t triangles, std::vector<Peer>& peers) {
+Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles, std::vector<Peer>& peers) {
   std::vector<std::string> names = settings.kernels;
   if (names.empty()) {
     for (std::size_t i = 0; i < kernel_count(); ++i) {
@@ -58,6 +58,7 @@ Status add_kernels(const Settings& settings, const Scene& scene, std::size_t tri
   for (const std::string& name : names) {
     QueryOptions options;
     if (Status status = find_kernel(name.c_str(), options.kernel); !status) return status;
+    if (Status status = scene.prepare(options.kernel); !status) return status;
     peers.push_back(
         {"umbrix:" + name, [&scene, options](RaySpan rays, std::uint8_t* out) { scene.occluded(rays, out, options); }});
   }

@@ -24,10 +24,19 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
   detail::Box bounds;
   BuildStats stats;
   detail::SceneView view{};
+  std::vector<std::unique_ptr<detail::SideTable>> side_tables;  ///< by the kernel's place in the table
   bool committed = false;
 
   void keep_or_drop(const detail::Triangle& triangle, std::uint32_t id);
   void make_view();
+
+  /// The scene as the kernel sees it, with its side table.
+  detail::SceneView view_for(KernelId kernel) const noexcept {
+    detail::SceneView result = view;
+    const std::size_t place = detail::kernel_place(kernel);
+    if (place < side_tables.size()) result.side = side_tables[place].get();
+    return result;
+  }
 };
 
 namespace {
@@ -168,6 +177,27 @@ Status Scene::commit(const BuildOptions& options) {
   }
 }
 
+Status Scene::prepare(KernelId kernel, const Training& training, PrepareStats* stats) {
+  if (stats) *stats = {};
+  if (!impl_ || !impl_->committed) return {StatusCode::invalid_argument, "scene: not committed"};
+  const detail::Kernel& entry = detail::kernel_at(kernel);
+  if (!entry.prepare) return {};
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    impl_->side_tables.resize(detail::kernel_table_size());
+    std::unique_ptr<detail::SideTable>& slot = impl_->side_tables[detail::kernel_place(kernel)];
+    slot.reset();
+    slot = entry.prepare({impl_->view, training});
+    if (stats) stats->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (stats && slot) stats->bytes = slot->bytes();
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::resource_limit, std::string("scene: out of memory while preparing kernel ") + entry.info.name};
+  } catch (const std::exception& e) {
+    return {StatusCode::internal, std::string("scene: the executor failed: ") + e.what()};
+  }
+}
+
 bool Scene::occluded(const Ray& ray, const QueryOptions& options) const noexcept {
   std::uint8_t out = 0;
   occluded(RaySpan{&ray, 1, sizeof(Ray)}, &out, options);
@@ -178,7 +208,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& option
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, std::uint8_t{0});
   else
-    detail::kernel_at(options.kernel).entry_points().occluded(impl_->view, rays, out, options);
+    detail::kernel_at(options.kernel).entry_points().occluded(impl_->view_for(options.kernel), rays, out, options);
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
@@ -186,7 +216,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
   if (!impl_ || !impl_->committed)
     occluded(rays, out, options);
   else
-    detail::kernel_at(options.kernel).entry_points().occluded_counted(impl_->view, rays, out, options, counts);
+    detail::kernel_at(options.kernel).entry_points().occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -198,14 +228,14 @@ void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const n
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, Hit{});
   else
-    detail::kernel_at(options.kernel).entry_points().closest(impl_->view, rays, out, options);
+    detail::kernel_at(options.kernel).entry_points().closest(impl_->view_for(options.kernel), rays, out, options);
 }
 
 void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {
   if (!impl_ || !impl_->committed)
     closest(rays, out, options);
   else
-    detail::kernel_at(options.kernel).entry_points().closest_counted(impl_->view, rays, out, options, counts);
+    detail::kernel_at(options.kernel).entry_points().closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {

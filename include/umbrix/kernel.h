@@ -12,6 +12,7 @@ namespace umbrix {
 struct KernelInfo {
   const char* name;
   const char* summary;  ///< one line
+  bool needs_preparation;  ///< walks as "standard" does until Scene::prepare has made what it needs
 };
 
 /// Names a kernel by its place in the list; the default is the one recommended for single rays.

@@ -32,6 +32,21 @@ struct QueryOptions {
   KernelId kernel;                   ///< default: the recommended one
 };
 
+/// Rays like those to come, for kernels that learn from them. Others use the executor only.
+struct Training {
+  RaySpan rays;
+  const Primitive* skip = nullptr;  ///< as in QueryOptions
+  const float (*lights)[3] = nullptr;  ///< where the rays go to, for links made from the lights on
+  std::size_t light_count = 0;
+  const Executor* executor = nullptr;  ///< null: oneTBB
+};
+
+/// What Scene::prepare made and what it cost.
+struct PrepareStats {
+  double seconds = 0;
+  std::uint64_t bytes = 0;
+};
+
 /// Triangles and the tree over them. Add meshes, commit once, then ask.
 ///
 /// Answers are those of real arithmetic for the float rays and float vertices: a ray hits a triangle if some
@@ -56,6 +71,11 @@ class UMBRIX_API Scene {
 
   /// Builds the tree. resource_limit: no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
+
+  /// Makes what a kernel needs beside the tree (KernelInfo::needs_preparation), in place of what it had; a kernel that
+  /// needs nothing is left alone. Answers do not depend on it. After commit, and not while queries run.
+  /// invalid_argument: not committed. resource_limit: no memory; the kernel then walks as "standard" does.
+  Status prepare(KernelId kernel, const Training& training = {}, PrepareStats* stats = nullptr);
 
   /// Is something between the ray's ends?
   bool occluded(const Ray& ray, const QueryOptions& options = {}) const noexcept;

@@ -17,6 +17,10 @@ struct RayCounts {
   std::uint64_t double_tests = 0;     ///< of those, undecided in float
   std::uint64_t exact_tests = 0;      ///< of those, undecided in double
   std::uint64_t far_rays = 0;         ///< walked with double plane times, or tested against everything
+  std::uint64_t index_tests = 0;      ///< of the primitive tests, those of indexed or remembered triangles
+  std::uint64_t links_followed = 0;   ///< from leaf to leaf without the root
+  std::uint64_t links_missing = 0;    ///< continued from the root for want of a link
+  std::uint64_t restarts = 0;         ///< continued from above for want of a stack
 
   RayCounts& operator+=(const RayCounts& o) noexcept {
     rays += o.rays;
@@ -27,6 +31,10 @@ struct RayCounts {
     double_tests += o.double_tests;
     exact_tests += o.exact_tests;
     far_rays += o.far_rays;
+    index_tests += o.index_tests;
+    links_followed += o.links_followed;
+    links_missing += o.links_missing;
+    restarts += o.restarts;
     return *this;
   }
 };

@@ -10,8 +10,10 @@ namespace HWY_NAMESPACE {
 namespace {
 
 struct Brute {
+  using State = NoState;
+
   template <class Counts>
-  static bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts) {
+  static bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State&, Counts& counts) {
     if (!is_valid(ray)) {
       counts.invalid_ray();
       return false;
@@ -24,7 +26,7 @@ struct Brute {
   }
 
   template <class Counts>
-  static void closest(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest, Counts& counts) {
+  static void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State&, Nearest& nearest, Counts& counts) {
     if (!is_valid(ray)) {
       counts.invalid_ray();
       return;
@@ -39,8 +41,9 @@ struct Brute {
 }  // namespace
 }  // namespace HWY_NAMESPACE
 
-extern const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes"},
-                                    &HWY_NAMESPACE::entry_points<HWY_NAMESPACE::Brute>};
+extern const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes", false},
+                                    &HWY_NAMESPACE::entry_points<HWY_NAMESPACE::Brute>,
+                                    nullptr};
 
 }  // namespace umbrix::detail
 HWY_AFTER_NAMESPACE();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "kernels/scene_view.h"
 #include "umbrix/kernel.h"
 
@@ -14,14 +16,35 @@ struct EntryPoints {
   void (*closest_counted)(const SceneView&, RaySpan, Hit* out, const QueryOptions&, RayCounts&);
 };
 
+/// What a side table is made from.
+struct PrepareInput {
+  const SceneView& scene;
+  const Training& training;
+};
+
 /// A way to walk the scene. All kernels give the same answers.
 struct Kernel {
   KernelInfo info;
-  const EntryPoints& (*entry_points)();  ///< those of the instruction set in use
+  const EntryPoints& (*entry_points)();                       ///< those of the instruction set in use
+  std::unique_ptr<SideTable> (*prepare)(const PrepareInput&);  ///< null: the kernel needs nothing beside the tree
 };
+
+/// Defines a kernel at the end of its file, within HWY_ONCE. `entry` is the function that each instruction set's
+/// namespace has for it.
+#define UMBRIX_DEFINE_KERNEL(variable, entry, name, summary, prepare_function)               \
+  namespace umbrix::detail {                                                                 \
+  namespace {                                                                                \
+  HWY_EXPORT(entry);                                                                         \
+  }                                                                                          \
+  extern const Kernel variable;                                                              \
+  const Kernel variable = {{name, summary, (prepare_function) != nullptr},                    \
+                           []() -> const EntryPoints& { return HWY_DYNAMIC_DISPATCH(entry)(); }, \
+                           prepare_function};                                                \
+  }  // namespace umbrix::detail
 
 /// The table of kernels, and the place of the default one.
 std::size_t kernel_table_size() noexcept;
+std::size_t kernel_place(KernelId id) noexcept;
 const Kernel& kernel_at(KernelId id) noexcept;
 
 }  // namespace umbrix::detail

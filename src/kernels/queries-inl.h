@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops over rays, the same for every kernel: compiled once for each instruction set, so that a kernel's walk is
 // inlined. A kernel class has
-//   template <class Counts> static bool occluded(const SceneView&, const Filter&, const Ray&, Counts&);
-//   template <class Counts> static void closest(const SceneView&, const Filter&, const Ray&, Nearest&, Counts&);
+//   using State = ...;  what lasts from ray to ray of one call; made from a SceneView
+//   template <class Counts> static bool occluded(const SceneView&, const Filter&, const Ray&, State&, Counts&);
+//   template <class Counts> static void closest(const SceneView&, const Filter&, const Ray&, State&, Nearest&, Counts&);
 
 #if defined(UMBRIX_KERNELS_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_QUERIES_INL_H_
@@ -35,10 +36,11 @@ inline Hit to_hit(const SceneView& scene, const Nearest& nearest) {
 template <class K>
 void occluded_each(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
   Filter filter(scene, options);
+  typename K::State state(scene);
   NoCounts none;
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);
-    out[i] = K::occluded(scene, filter, rays[i], none);
+    out[i] = K::occluded(scene, filter, rays[i], state, none);
   }
 }
 
@@ -46,10 +48,11 @@ template <class K>
 void occluded_each_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options,
                            OcclusionCounts& counts) {
   Filter filter(scene, options);
+  typename K::State state(scene);
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);
     CountEach each;
-    out[i] = K::occluded(scene, filter, rays[i], each);
+    out[i] = K::occluded(scene, filter, rays[i], state, each);
     (out[i] ? counts.occluded : counts.unoccluded) += each.counts;
   }
 }
@@ -57,11 +60,12 @@ void occluded_each_counted(const SceneView& scene, RaySpan rays, std::uint8_t* o
 template <class K>
 void closest_each(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
   Filter filter(scene, options);
+  typename K::State state(scene);
   NoCounts none;
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);
     Nearest nearest;
-    K::closest(scene, filter, rays[i], nearest, none);
+    K::closest(scene, filter, rays[i], state, nearest, none);
     out[i] = to_hit(scene, nearest);
   }
 }
@@ -70,11 +74,12 @@ template <class K>
 void closest_each_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,
                           RayCounts& counts) {
   Filter filter(scene, options);
+  typename K::State state(scene);
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);
     CountEach each;
     Nearest nearest;
-    K::closest(scene, filter, rays[i], nearest, each);
+    K::closest(scene, filter, rays[i], state, nearest, each);
     out[i] = to_hit(scene, nearest);
     counts += each.counts;
   }

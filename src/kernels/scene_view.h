@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/triangle_test.h"
+#include "index/side_table.h"
 #include "kernels/counts.h"
 #include "tree/tree.h"
 #include "umbrix/mesh.h"
@@ -30,6 +31,12 @@ struct SceneView {
   const MeshRecord* meshes;
   std::size_t mesh_count;
   bool all_plain;  ///< no mesh has a zero mask or an opacity test
+  const SideTable* side = nullptr;  ///< of the kernel that is asked, if it was prepared
+};
+
+/// For kernels that answer each ray by itself.
+struct NoState {
+  explicit NoState(const SceneView&) {}
 };
 
 /// Which triangles are there for one ray.

@@ -9,6 +9,8 @@
 // In the order shown to users; the first is the default.
 #define UMBRIX_KERNELS(KERNEL) \
   KERNEL(kStandardKernel)      \
+  KERNEL(kLinkedKernel)        \
+  KERNEL(kRopesKernel)         \
   KERNEL(kBruteKernel)
 
 namespace umbrix {
@@ -27,10 +29,12 @@ constexpr std::size_t kDefault = 0;
 
 std::size_t kernel_table_size() noexcept { return std::size(kKernels); }
 
-const Kernel& kernel_at(KernelId id) noexcept {
+std::size_t kernel_place(KernelId id) noexcept {
   const auto index = static_cast<std::size_t>(id.index);
-  return *kKernels[id.index >= 0 && index < std::size(kKernels) ? index : kDefault];
+  return id.index >= 0 && index < std::size(kKernels) ? index : kDefault;
 }
+
+const Kernel& kernel_at(KernelId id) noexcept { return *kKernels[kernel_place(id)]; }
 
 }  // namespace detail
 

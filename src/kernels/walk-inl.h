@@ -102,20 +102,18 @@ HWY_INLINE Interval clip_to_root(const WalkRay& ray, const Box& root) {
   return result;
 }
 
-/// Visits the leaves that the ray's interval crosses, near first: leaf(node, t0, t1) returns true to stop.
-/// `limit` is read before each subtree: what starts beyond it is left out.
+/// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0, t1)
+/// returns true to stop. `limit` is read before each subtree: what starts beyond it is left out.
 template <class Leaf, class Counts>
-HWY_INLINE bool walk(const Tree& tree, const WalkRay& ray, const float& limit, Leaf&& leaf, Counts& counts) {
+HWY_INLINE bool stack_walk(const Tree& tree, std::uint32_t index, Interval at, const WalkRay& ray, const float& limit,
+                           Leaf&& leaf, Counts& counts) {
   struct Pending {
     std::uint32_t node;
     float t1;
   };
   Pending stack[kMaxDepth + 1];
   std::uint32_t pending = 0;
-  Interval at = clip_to_root(ray, tree.root);
-  if (!(at.t0 <= at.t1)) return false;
   const Node* const nodes = tree.nodes.data();
-  std::uint32_t index = 0;
   for (;;) {
     // Descend to the leaf at the start of the interval.
     Node node = nodes[index];
@@ -138,7 +136,7 @@ HWY_INLINE bool walk(const Tree& tree, const WalkRay& ray, const float& limit, L
       counts.node();
     }
     counts.leaf();
-    if (node.block_count() != 0 && leaf(node, at.t0, at.t1)) return true;
+    if (node.block_count() != 0 && leaf(node.blocks(), at.t0, at.t1)) return true;
     if (pending == 0) return false;
     at.t0 = at.t1;
     if (at.t0 > limit) return false;
@@ -147,6 +145,19 @@ HWY_INLINE bool walk(const Tree& tree, const WalkRay& ray, const float& limit, L
     at.t1 = stack[pending].t1;
   }
 }
+
+/// From the root.
+struct StackWalk {
+  using State = NoState;
+  static constexpr bool kNearFirst = true;
+
+  template <class Leaf, class Counts>
+  static HWY_INLINE bool walk(const SceneView& scene, State&, const WalkRay& ray, const float& limit, Leaf&& leaf,
+                              Counts& counts) {
+    const Interval at = clip_to_root(ray, scene.tree->root);
+    return at.t0 <= at.t1 && stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail

@@ -12,6 +12,11 @@ namespace umbrix::detail {
 inline constexpr std::uint32_t kBlockLanes = 8;
 inline constexpr std::uint32_t kMaxDepth = 60;
 
+/// Blocks that stand side by side.
+struct BlockRun {
+  std::uint32_t first, count;
+};
+
 /// An inner node splits its cell by an axis-aligned plane into two children that lie side by side, the one on the low
 /// side at an even index. A leaf names a run of triangle blocks. One bit is kept for the multi-index layer.
 class Node {
@@ -39,6 +44,8 @@ class Node {
     std::memcpy(&first, &plane_, sizeof first);
     return first;
   }
+
+  BlockRun blocks() const noexcept { return {first_block(), block_count()}; }
 
  private:
   static constexpr std::uint32_t kLeaf = 3;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// A kernel made from a walk over the tree: leaves are tested in blocks, whatever order they are visited in. A walk class
+// has
+//   struct State;                        what lasts from ray to ray of one call; made from a SceneView
+//   static constexpr bool kNearFirst;    leaves come in the order of t, so the first hit can end a closest-hit query
+//   template <class Leaf, class Counts> static bool walk(const SceneView&, State&, const WalkRay&, const float& limit,
+//                                                        Leaf&& leaf, Counts&);
+// and calls leaf(run, t0, t1) for each leaf that holds something, until it returns true.
+
+#if defined(UMBRIX_KERNELS_TREE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_TREE_KERNEL_INL_H_
+#undef UMBRIX_KERNELS_TREE_KERNEL_INL_H_
+#else
+#define UMBRIX_KERNELS_TREE_KERNEL_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/far_ray.h"
+#include "kernels/leaf_test-inl.h"
+#include "kernels/queries-inl.h"
+#include "kernels/walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// Does the block hold a triangle that blocks the ray? The ray is within the block's reach at time `t`.
+template <class Counts>
+HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+                             const WalkRay& walk_ray, const Block& block, float t, Counts& counts) {
+  counts.primitives(block.count);
+  LaneBits lanes = test(block, t, walk_ray.tmax);
+  if (HWY_LIKELY((lanes.hit | lanes.undecided) == 0)) return false;
+  if (filter.passes_all()) {
+    if (lanes.hit) return counts.blocked_by(block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes.hit)]);
+  } else {
+    for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
+      const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+      if (filter.admits(id) && filter.is_opaque(ray, id)) return counts.blocked_by(id);
+    }
+  }
+  // The triangle that the ray starts on is the one most often undecided: leave it out before the sharper tests.
+  std::uint32_t open = 0;
+  for (std::uint32_t rest = lanes.undecided; rest != 0; rest &= rest - 1)
+    if (filter.admits(block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)])) open |= rest & (0u - rest);
+  if (open == 0) return false;
+  lanes = test.with_permanents(block, open);
+  for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
+    const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+    if (filter.is_opaque(ray, id)) return counts.blocked_by(id);
+  }
+  for (std::uint32_t rest = lanes.undecided; rest != 0; rest &= rest - 1) {
+    const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+    if (blocks(scene, filter, ray, id, counts)) return counts.blocked_by(id);
+  }
+  return false;
+}
+
+/// The same for a leaf's run of blocks, which the ray leaves at `t1`.
+template <class Counts>
+HWY_INLINE bool leaf_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+                            const WalkRay& walk_ray, BlockRun run, float t1, Counts& counts) {
+  const Block* block = scene.tree->blocks.data() + run.first;
+  for (const Block* const end = block + run.count; block != end; ++block)
+    if (block_blocks(scene, filter, ray, test, walk_ray, *block, t1, counts)) return true;
+  return false;
+}
+
+/// Offers the leaf's possible hits; `limit` is the time beyond which nothing can come first any more.
+template <class Counts>
+HWY_INLINE void leaf_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+                             const WalkRay& walk_ray, BlockRun run, float t1, Nearest& nearest, float& limit,
+                             Counts& counts) {
+  const Block* block = scene.tree->blocks.data() + run.first;
+  for (const Block* const end = block + run.count; block != end; ++block) {
+    counts.primitives(block->count);
+    const LaneBits lanes = test(*block, t1, limit);
+    for (std::uint32_t rest = lanes.hit | lanes.undecided; rest != 0; rest &= rest - 1) {
+      const std::uint32_t id = block->id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+      if (!nearest.offer(scene, filter, ray, id, counts)) continue;
+      const double t = std::clamp(nearest.hit.t_high * walk_ray.time_scale, -kTimeLimit, kTimeLimit);
+      limit = std::min(walk_ray.tmax, std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity()));
+    }
+  }
+}
+
+template <class Walk>
+struct TreeKernel {
+  using State = typename Walk::State;
+
+  template <class Counts>
+  static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
+                                  Counts& counts) {
+    if (HWY_UNLIKELY(!is_valid(ray))) {
+      counts.invalid_ray();
+      return false;
+    }
+    WalkRay walk_ray;
+    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
+      return far_occluded(scene, filter, ray, counts);
+    const LeafTest test(walk_ray);
+    return Walk::walk(
+        scene, state, walk_ray, walk_ray.tmax,
+        [&](BlockRun run, float, float t1) {
+          return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
+        },
+        counts);
+  }
+
+  template <class Counts>
+  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
+                                 Nearest& nearest, Counts& counts) {
+    if (HWY_UNLIKELY(!is_valid(ray))) {
+      counts.invalid_ray();
+      return;
+    }
+    WalkRay walk_ray;
+    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far)) {
+      far_closest(scene, filter, ray, nearest, counts);
+      return;
+    }
+    const LeafTest test(walk_ray);
+    float limit = walk_ray.tmax;
+    Walk::walk(
+        scene, state, walk_ray, limit,
+        [&](BlockRun run, float, float t1) {
+          leaf_closest(scene, filter, ray, test, walk_ray, run, t1, nearest, limit, counts);
+          return false;
+        },
+        counts);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
