@@ -12,10 +12,6 @@
 
 namespace umbrix::detail {
 
-/// The low sides of a cell along x, y, z, then the high ones.
-inline constexpr std::uint32_t kFaces = 6;
-constexpr std::uint32_t face_of(std::uint32_t axis, bool high) noexcept { return axis + (high ? 3u : 0u); }
-
 /// Where a link leads: to a leaf, or to the inner node whose cell covers the whole face.
 class Link {
  public:

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 
+#include "tree/tree.h"
 #include "umbrix/stats.h"
 
 namespace umbrix::detail {
 
-/// The observer of an uncounted query: compiles to nothing. `blocked_by` says which triangle ended the ray, for
-/// observers that learn, and returns true.
+/// The observer of an uncounted query: compiles to nothing. `blocked_by` says which block and lane ended the
+/// ray, for observers that learn, and returns true.
 struct NoCounts {
   void node() noexcept {}
   void leaf() noexcept {}
@@ -21,7 +22,7 @@ struct NoCounts {
   void link() noexcept {}
   void missing_link() noexcept {}
   void restart() noexcept {}
-  bool blocked_by(std::uint32_t) noexcept { return true; }
+  bool blocked_by(const Block&, std::uint32_t) noexcept { return true; }
 };
 
 /// The observer of a counted query, for one ray.
@@ -40,7 +41,7 @@ struct CountEach {
   void link() noexcept { ++counts.links_followed; }
   void missing_link() noexcept { ++counts.links_missing; }
   void restart() noexcept { ++counts.restarts; }
-  bool blocked_by(std::uint32_t) noexcept { return true; }
+  bool blocked_by(const Block&, std::uint32_t) noexcept { return true; }
 };
 
 }  // namespace umbrix::detail

@@ -59,11 +59,13 @@ class LeafTest {
     }
   }
 
-  /// Tests a block of a leaf that the ray leaves at `t1`, for hits before `tmax`.
-  HWY_INLINE LaneBits operator()(const Block& block, float t1, float tmax) const {
+  /// How far the first vertices in a leaf's block can be from the origin of a ray that is in the leaf at time `t`.
+  HWY_INLINE float reach(const Block& block, float t) const { return std::abs(t) * ray_.length + block.reach; }
+
+  /// Tests a block none of whose first vertices is farther than `reach` from the origin, for hits before `tmax`.
+  HWY_INLINE LaneBits operator()(const Block& block, float reach, float tmax) const {
     LaneBits result;
     const Lanes8 f;
-    const float reach = std::abs(t1) * ray_.length + block.reach;
     const float error = edge_factor_ * block.edge_bound * (2 * reach + block.edge_bound) + kTinyEdge;
     const auto reject_below = hn::Set(f, kMissFactor * error);
     for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {

@@ -28,34 +28,39 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Does the block hold a triangle that blocks the ray? The ray is within the block's reach at time `t`.
+/// The lane of the lowest bit.
+HWY_INLINE std::uint32_t lane_of(std::uint32_t bits) {
+  return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
+/// Does the block hold a triangle that blocks the ray? No first vertex in it is farther than `reach` from the origin.
 template <class Counts>
 HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
-                             const WalkRay& walk_ray, const Block& block, float t, Counts& counts) {
+                             const WalkRay& walk_ray, const Block& block, float reach, Counts& counts) {
   counts.primitives(block.count);
-  LaneBits lanes = test(block, t, walk_ray.tmax);
+  LaneBits lanes = test(block, reach, walk_ray.tmax);
   if (HWY_LIKELY((lanes.hit | lanes.undecided) == 0)) return false;
   if (filter.passes_all()) {
-    if (lanes.hit) return counts.blocked_by(block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes.hit)]);
+    if (lanes.hit) return counts.blocked_by(block, lane_of(lanes.hit));
   } else {
     for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
-      const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
-      if (filter.admits(id) && filter.is_opaque(ray, id)) return counts.blocked_by(id);
+      const std::uint32_t id = block.id[lane_of(rest)];
+      if (filter.admits(id) && filter.is_opaque(ray, id)) return counts.blocked_by(block, lane_of(rest));
     }
   }
   // The triangle that the ray starts on is the one most often undecided: leave it out before the sharper tests.
   std::uint32_t open = 0;
   for (std::uint32_t rest = lanes.undecided; rest != 0; rest &= rest - 1)
-    if (filter.admits(block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)])) open |= rest & (0u - rest);
+    if (filter.admits(block.id[lane_of(rest)])) open |= rest & (0u - rest);
   if (open == 0) return false;
   lanes = test.with_permanents(block, open);
   for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
-    const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
-    if (filter.is_opaque(ray, id)) return counts.blocked_by(id);
+    const std::uint32_t lane = lane_of(rest);
+    if (filter.is_opaque(ray, block.id[lane])) return counts.blocked_by(block, lane);
   }
   for (std::uint32_t rest = lanes.undecided; rest != 0; rest &= rest - 1) {
-    const std::uint32_t id = block.id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
-    if (blocks(scene, filter, ray, id, counts)) return counts.blocked_by(id);
+    const std::uint32_t lane = lane_of(rest);
+    if (blocks(scene, filter, ray, block.id[lane], counts)) return counts.blocked_by(block, lane);
   }
   return false;
 }
@@ -66,7 +71,7 @@ HWY_INLINE bool leaf_blocks(const SceneView& scene, const Filter& filter, const 
                             const WalkRay& walk_ray, BlockRun run, float t1, Counts& counts) {
   const Block* block = scene.tree->blocks.data() + run.first;
   for (const Block* const end = block + run.count; block != end; ++block)
-    if (block_blocks(scene, filter, ray, test, walk_ray, *block, t1, counts)) return true;
+    if (block_blocks(scene, filter, ray, test, walk_ray, *block, test.reach(*block, t1), counts)) return true;
   return false;
 }
 
@@ -78,9 +83,9 @@ HWY_INLINE void leaf_closest(const SceneView& scene, const Filter& filter, const
   const Block* block = scene.tree->blocks.data() + run.first;
   for (const Block* const end = block + run.count; block != end; ++block) {
     counts.primitives(block->count);
-    const LaneBits lanes = test(*block, t1, limit);
+    const LaneBits lanes = test(*block, test.reach(*block, t1), limit);
     for (std::uint32_t rest = lanes.hit | lanes.undecided; rest != 0; rest &= rest - 1) {
-      const std::uint32_t id = block->id[hwy::Num0BitsBelowLS1Bit_Nonzero32(rest)];
+      const std::uint32_t id = block->id[lane_of(rest)];
       if (!nearest.offer(scene, filter, ray, id, counts)) continue;
       const double t = std::clamp(nearest.hit.t_high * walk_ray.time_scale, -kTimeLimit, kTimeLimit);
       limit = std::min(walk_ray.tmax, std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity()));

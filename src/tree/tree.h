@@ -12,6 +12,10 @@ namespace umbrix::detail {
 inline constexpr std::uint32_t kBlockLanes = 8;
 inline constexpr std::uint32_t kMaxDepth = 60;
 
+/// The low sides of a cell along x, y, z, then the high ones.
+inline constexpr std::uint32_t kFaces = 6;
+constexpr std::uint32_t face_of(std::uint32_t axis, bool high) noexcept { return axis + (high ? 3u : 0u); }
+
 /// Blocks that stand side by side.
 struct BlockRun {
   std::uint32_t first, count;
