@@ -4,11 +4,11 @@
 
 namespace umbrix::render {
 
-extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodesAov, kTrianglesAov;
+extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodeTestsAov, kPrimitiveTestsAov;
 
 namespace {
 
-const Aov* const kTable[] = {&kNormalAov, &kDepthAov, &kAlbedoAov, &kShadowAov, &kNodesAov, &kTrianglesAov};
+const Aov* const kTable[] = {&kNormalAov, &kDepthAov, &kAlbedoAov, &kShadowAov, &kNodeTestsAov, &kPrimitiveTestsAov};
 
 }  // namespace
 
