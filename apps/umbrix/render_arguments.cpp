@@ -96,7 +96,7 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
-          "More channels for EXR: normal,depth,albedo,shadow,node_tests,primitive_tests")
+          "More channels for EXR: normal,depth,albedo,shadow,node_tests,primitive_tests,kernel")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");

@@ -4,11 +4,12 @@
 
 namespace umbrix::render {
 
-extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodeTestsAov, kPrimitiveTestsAov;
+extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodeTestsAov, kPrimitiveTestsAov, kKernelAov;
 
 namespace {
 
-const Aov* const kTable[] = {&kNormalAov, &kDepthAov, &kAlbedoAov, &kShadowAov, &kNodeTestsAov, &kPrimitiveTestsAov};
+const Aov* const kTable[] = {&kNormalAov,    &kDepthAov,          &kAlbedoAov, &kShadowAov,
+                             &kNodeTestsAov, &kPrimitiveTestsAov, &kKernelAov};
 
 }  // namespace
 
