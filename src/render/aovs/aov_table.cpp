@@ -22,7 +22,7 @@ const Aov* find_aov(const std::string& name) {
 
 std::vector<AovInfo> known_aovs() {
   std::vector<AovInfo> infos;
-  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary});
+  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary, aov->heat_map != HeatMapStyle::none});
   return infos;
 }
 

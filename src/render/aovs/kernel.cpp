@@ -24,6 +24,8 @@ const Aov kKernelAov = {"kernel",
                         Reduction::mean,
                         0,
                         false,
-                        contribute};
+                        contribute,
+                        HeatMapStyle::shares,
+                        "what answered the shadow rays"};
 
 }  // namespace umbrix::render

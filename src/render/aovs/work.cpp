@@ -24,13 +24,17 @@ const Aov kNodeTestsAov = {"node_tests",
                            Reduction::mean,
                            0,
                            true,
-                           contribute_node_tests};
+                           contribute_node_tests,
+                           HeatMapStyle::scale,
+                           "of shadow rays, per camera sample"};
 const Aov kPrimitiveTestsAov = {"primitive_tests",
                                 "triangle tests of the shadow rays of a camera sample, mean",
                                 {"primitive_tests.Y"},
                                 Reduction::mean,
                                 0,
                                 true,
-                                contribute_primitive_tests};
+                                contribute_primitive_tests,
+                                HeatMapStyle::scale,
+                                "of shadow rays, per camera sample"};
 
 }  // namespace umbrix::render
