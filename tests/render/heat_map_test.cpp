@@ -10,7 +10,7 @@
 
 #include "render/heat_map/color_map.h"
 #include "render/heat_map/heat_scale.h"
-#include "render/heat_map/round_ticks.h"
+#include "render/round_ticks.h"
 
 namespace umbrix::render {
 namespace {
@@ -80,6 +80,9 @@ TEST(RoundTicks, StepsAndLabels) {
   EXPECT_EQ(tick_label(150, 50), "150");
   EXPECT_EQ(tick_label(0.25, 0.05), "0.25");
   EXPECT_EQ(tick_label(0, 0.05), "0");
+  EXPECT_EQ(tick_label(-40000, 20000), "-40000");
+  EXPECT_EQ(tick_label(1.5e9, 5e8), "1500e6");
+  EXPECT_EQ(tick_label(6e-6, 2e-6), "6e-6");
 }
 
 TEST(HeatScale, LeavesOutTheFewLargest) {

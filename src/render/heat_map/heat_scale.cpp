@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/heat_map/round_ticks.h"
+#include "render/round_ticks.h"
 
 namespace umbrix::render {
 namespace {

@@ -8,7 +8,7 @@
 #include "render/heat_map/color_map.h"
 #include "render/heat_map/heat_scale.h"
 #include "render/heat_map/maps.h"
-#include "render/heat_map/round_ticks.h"
+#include "render/round_ticks.h"
 
 namespace umbrix::render {
 namespace {

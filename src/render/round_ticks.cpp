@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/heat_map/round_ticks.h"
+#include "render/round_ticks.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,10 @@ double round_step(double span, int most) {
 
 std::string tick_label(double value, double step) {
   if (std::abs(value) < step / 2) return "0";
-  if (step >= 1e6 || step < 1e-5) return fmt::format("{:.4g}", value);
+  if (step >= 1e6 || step < 1e-5) {
+    const int exponent = 3 * static_cast<int>(std::floor(std::log10(step) / 3 + 1e-9));
+    return fmt::format("{:.0f}e{}", value / std::pow(10.0, exponent), exponent);
+  }
   const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
   return fmt::format("{:.{}f}", value, decimals);
 }
