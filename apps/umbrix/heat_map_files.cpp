@@ -50,7 +50,7 @@ void add_heat_map_option(CLI::App& command, RenderArguments& a) {
   };
   command
       .add_option_function<std::vector<std::string>>(
-          "--heat-map", add, "Draw an AOV in false colours with a legend; may be repeated. The AOV is computed for it")
+          "--heat-map", add, "Draw an AOV in false colours with a legend (and put it into an EXR); may be repeated")
       ->allow_extra_args(false)
       ->type_name("AOV=FILE.png");
 }
