@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <set>
 
+#include "heat_map_files.h"
+
 namespace umbrix::app {
 namespace {
 
@@ -42,7 +44,7 @@ std::vector<std::string> report_files(const RenderArguments& a) {
 Status check_outputs(const RenderArguments& a) {
   std::set<std::string> seen;
   std::error_code error;
-  for (const std::vector<std::string>& list : {a.outputs, report_files(a)}) {
+  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a), report_files(a)}) {
     for (const std::string& path : list) {
       if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
         return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
@@ -59,11 +61,12 @@ Status check_outputs(const RenderArguments& a) {
   for (const std::string& path : a.outputs) {
     if (Status status = io::check_output(path, a.write); !status) return status;
   }
+  if (Status status = check_heat_maps(a); !status) return status;
   return report_files(a).empty() ? Status() : check_stats_file(a);
 }
 
 Status create_output_folders(const RenderArguments& a) {
-  for (const std::vector<std::string>& list : {a.outputs, report_files(a)}) {
+  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a), report_files(a)}) {
     for (const std::string& path : list) {
       std::error_code error;
       fs::create_directories(folder_of(path), error);

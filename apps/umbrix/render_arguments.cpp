@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "heat_map_files.h"
 #include "strict_number.h"
 
 namespace umbrix::app {
@@ -96,7 +97,7 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
-          "More channels for EXR: normal,depth,albedo,shadow,nodes,triangles")
+          "More channels for EXR: normal,depth,albedo,shadow,node_tests,primitive_tests,kernel")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");
@@ -150,17 +151,20 @@ void add_talking_options(CLI::App& command, RenderArguments& a) {
 void add_render_options(CLI::App& command, RenderArguments& a) {
   command.add_option("scene", a.scene, "A glTF 2.0 file, .gltf or .glb")->required()->type_name("SCENE");
   command.add_option("-o,--output", a.outputs, "Image to write, .exr (linear) or .png (sRGB); may be repeated")
-      ->required()
       ->allow_extra_args(false)
       ->type_name("FILE");
   command.add_option("--setup", a.setup, "Camera and lights from a JSON file")->type_name("FILE");
   command.add_option("--camera", a.camera, "The scene's camera, by name or number from 0 [0]")->type_name("NAME|N");
   add_image_options(command, a);
+  add_heat_map_option(command, a);
   add_tracing_options(command, a);
   command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
   command.add_flag("--create-dir", a.create_folders, "Make missing folders of the outputs");
   command.add_flag("-n,--dry-run", a.dry_run, "Check everything and say what would be rendered");
   add_talking_options(command, a);
+  command.callback([&a] {
+    if (a.outputs.empty() && a.heat_maps.empty()) throw CLI::RequiredError("--output or --heat-map");
+  });
 }
 
 }  // namespace umbrix::app

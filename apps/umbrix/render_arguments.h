@@ -18,6 +18,11 @@ struct Size {
   int width = 0, height = 0;
 };
 
+/// An AOV to be drawn, and the PNG it goes to.
+struct HeatMapFile {
+  std::string aov, path;
+};
+
 /// The command line of `umbrix render`, checked for itself: numbers in range, names known.
 struct RenderArguments {
   std::string scene;
@@ -29,6 +34,7 @@ struct RenderArguments {
   std::uint32_t samples = 1;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
+  std::vector<HeatMapFile> heat_maps;
   io::WriteOptions write;  ///< exposure, tone map, pixel type, overwrite
   KernelId kernel;
   std::string kernel_name = "auto";

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "heat_map_files.h"
 #include "message.h"
 #include "output_files.h"
 #include "render/threads.h"
@@ -43,7 +44,7 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.crop = a.crop;
   options.samples = a.samples;
   options.seed = a.seed;
-  options.aovs = a.aovs;
+  options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;
   options.count_work = !a.stats.empty();
   options.cancel = &interrupted();
@@ -76,7 +77,9 @@ void describe_plan(const RenderJob& job) {
   fmt::print("{}: {} triangles, {} lights, {}x{} pixels, {} samples\n", printable(job.scene.path),
              job.scene.instanced_triangles(), job.view.lights.size(), job.size.width, job.size.height,
              job.arguments.samples);
-  for (const std::string& path : job.arguments.outputs) fmt::print("would write {}\n", printable(path));
+  for (const std::vector<std::string>& list : {job.arguments.outputs, heat_map_files(job.arguments)}) {
+    for (const std::string& path : list) fmt::print("would write {}\n", printable(path));
+  }
 }
 
 /// Reads the inputs and checks all that can be checked before work begins.
@@ -127,6 +130,7 @@ Status write_images(RenderJob& job) {
     if (interrupted()) return {StatusCode::cancelled, "interrupted"};
     if (Status status = io::write_image(path, job.image, job.arguments.write); !status) return status;
   }
+  if (Status status = write_heat_maps(job); !status) return status;
   job.seconds.write = watch.seconds();
   return {};
 }

@@ -18,6 +18,11 @@ void count_unreached(Unreached reason, LightStats& stats) {
   stats.skipped_no_power += reason == Unreached::no_power;
 }
 
+void count_route(RayRoute route, CameraSample& sample, LightStats& stats) {
+  ++sample.routes[index_of(route)];
+  ++stats.routes[index_of(route)];
+}
+
 /// From the surface to the light; to the light's own place, not along a rounded direction of unit length.
 Ray shadow_ray(const Surface& surface, const Arrival& arrival) {
   float normal[3], toward[3];
@@ -43,6 +48,7 @@ void DirectLight::add(const io::Light& light, const std::vector<Surface>& surfac
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     CameraSample& sample = samples[pending_[i].sample];
     ++sample.shadow_rays;
+    count_route(RayRoute::other, sample, stats);
     if (occluded_[i]) continue;
     ++sample.unoccluded;
     sample.radiance += pending_[i].radiance;

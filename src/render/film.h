@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/ray_route.h"
 #include "render/vec.h"
 #include "umbrix/io/image_file.h"
 
@@ -13,14 +14,15 @@ struct Aov;
 
 /// What one camera ray found.
 struct CameraSample {
-  bool hit = false;               ///< met a surface; if not, all below stays as it is
-  Rgb radiance{0};                ///< towards the camera
-  double depth = 0;               ///< along the viewing axis
-  Vec3 normal{0};                 ///< shading normal, world space
-  Rgb albedo{0};                  ///< base colour
-  std::uint32_t shadow_rays = 0;  ///< traced, over all lights
-  std::uint32_t unoccluded = 0;   ///< of those
-  std::uint64_t node_tests = 0;   ///< of those rays, if counted
+  bool hit = false;                     ///< met a surface; if not, all below stays as it is
+  Rgb radiance{0};                      ///< towards the camera
+  double depth = 0;                     ///< along the viewing axis
+  Vec3 normal{0};                       ///< shading normal, world space
+  Rgb albedo{0};                        ///< base colour
+  std::uint32_t shadow_rays = 0;        ///< traced, over all lights
+  std::uint32_t unoccluded = 0;         ///< of those
+  RouteCounts<std::uint32_t> routes{};  ///< of the shadow rays, by what answered them; sums to shadow_rays
+  std::uint64_t node_tests = 0;         ///< of those rays, if counted
   std::uint64_t primitive_tests = 0;
 };
 

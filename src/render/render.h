@@ -41,6 +41,7 @@ struct RenderOptions {
 struct AovInfo {
   std::string name;
   std::string summary;
+  bool heat_map;  ///< make_heat_map draws it
 };
 
 /// What RenderOptions::aovs may name.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/ray_route.h"
 #include "umbrix/stats.h"
 
 namespace umbrix::render {
@@ -12,12 +13,13 @@ namespace umbrix::render {
 struct LightStats {
   std::uint64_t occluded = 0;  ///< shadow rays
   std::uint64_t unoccluded = 0;
-  std::uint64_t skipped_behind = 0;    ///< the surface faces away
-  std::uint64_t skipped_range = 0;     ///< beyond the light's range
-  std::uint64_t skipped_cone = 0;      ///< outside the spot's cone
-  std::uint64_t skipped_no_power = 0;  ///< black light, or black surface
-  OcclusionCounts counts;              ///< if asked for; rays of both classes sum to the above
-  double seconds = 0;                  ///< in occluded(), summed over threads
+  std::uint64_t skipped_behind = 0;     ///< the surface faces away
+  std::uint64_t skipped_range = 0;      ///< beyond the light's range
+  std::uint64_t skipped_cone = 0;       ///< outside the spot's cone
+  std::uint64_t skipped_no_power = 0;   ///< black light, or black surface
+  RouteCounts<std::uint64_t> routes{};  ///< shadow rays by what answered them
+  OcclusionCounts counts;               ///< if asked for; rays of both classes sum to the above
+  double seconds = 0;                   ///< in occluded(), summed over threads
 
   std::uint64_t rays() const noexcept { return occluded + unoccluded; }
 
@@ -28,6 +30,7 @@ struct LightStats {
     skipped_range += o.skipped_range;
     skipped_cone += o.skipped_cone;
     skipped_no_power += o.skipped_no_power;
+    for (std::size_t i = 0; i < kRayRoutes; ++i) routes[i] += o.routes[i];
     counts.occluded += o.counts.occluded;
     counts.unoccluded += o.counts.unoccluded;
     seconds += o.seconds;

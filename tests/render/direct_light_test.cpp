@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "built_scenes.h"
 
@@ -179,21 +180,40 @@ TEST(DirectLight, ChannelsHoldWhatTheirNamesSay) {
   scene.meshes.push_back(quad({0, -9, 1}, {9, -9, 1}, {9, 9, 1}, {0, 9, 1}));
   place(scene, 1);
   RenderOptions options = square(8);
-  options.aovs = {"shadow", "depth", "normal", "albedo", "nodes", "triangles"};
+  options.aovs = {"shadow", "depth", "normal", "albedo", "node_tests", "primitive_tests", "kernel"};
   options.samples = 4;
   const View view = {map_camera(0.5), {point_light({-1, 0, 2}, 5), point_light({-1, 0, 0.25}, 5)}};
   const Rendered r = rendered(scene, view, options);
-  const std::vector<std::string> expected = {"R",        "G",        "B",        "A",          "shadow.Y",
-                                             "depth.Z",  "normal.X", "normal.Y", "normal.Z",   "albedo.R",
-                                             "albedo.G", "albedo.B", "nodes.Y",  "triangles.Y"};
+  const std::vector<std::string> expected = {"R",
+                                             "G",
+                                             "B",
+                                             "A",
+                                             "shadow.Y",
+                                             "depth.Z",
+                                             "normal.X",
+                                             "normal.Y",
+                                             "normal.Z",
+                                             "albedo.R",
+                                             "albedo.G",
+                                             "albedo.B",
+                                             "node_tests.Y",
+                                             "primitive_tests.Y",
+                                             "kernel.cached",
+                                             "kernel.indexed",
+                                             "kernel.linked",
+                                             "kernel.other"};
   EXPECT_EQ(r.image.channels, expected);
   EXPECT_EQ(r.at(0, 4, 4), 1) << "both lights reach";
   EXPECT_EQ(r.at(7, 4, 4), 0.5) << "only the one below the blocker reaches";
   EXPECT_EQ(r.at(0, 4, 5), 0.5) << "depth";
   EXPECT_EQ(r.at(0, 4, 8), 1) << "normal.Z";
   EXPECT_EQ(r.at(0, 4, 10), 0.25) << "albedo.G";
-  EXPECT_GT(r.at(0, 4, 12), 0) << "nodes";
-  EXPECT_GT(r.at(7, 4, 13), 0) << "triangles";
+  EXPECT_GT(r.at(0, 4, 12), 0) << "node_tests";
+  EXPECT_GT(r.at(7, 4, 13), 0) << "primitive_tests";
+  EXPECT_EQ(r.at(7, 4, 14) + r.at(7, 4, 15) + r.at(7, 4, 16) + r.at(7, 4, 17), 1) << "shares of the ways";
+  for (const LightStats& light : r.stats.lights) {
+    EXPECT_EQ(std::accumulate(light.routes.begin(), light.routes.end(), std::uint64_t{0}), light.rays());
+  }
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ constexpr std::size_t kMaxAovChannels = 4;
 /// surfaces there is none).
 enum class Reduction { mean, minimum };
 
+/// How an AOV is drawn for the eye: not at all, by its one channel on a scale of colours, or by a mix of one colour for
+/// each channel (the routes of rays).
+enum class HeatMapStyle { none, scale, shares };
+
 /// An arbitrary output variable: some channels of the image. Adding one is a file with an Aov and a line in
 /// aov_table.cpp.
 struct Aov {
@@ -25,6 +29,8 @@ struct Aov {
   double background;  ///< where no sample contributes
   bool counts_work;   ///< needs node and primitive tests of each ray, which makes rendering slower
   double (*contribute)(const CameraSample& sample, double* values);  ///< returns the sample's weight; 0: nothing
+  HeatMapStyle heat_map = HeatMapStyle::none;
+  const char* unit = "";  ///< what is shown, for the legend of a heat map
 };
 
 /// R, G, B, A; always the first.

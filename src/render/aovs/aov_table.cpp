@@ -4,11 +4,12 @@
 
 namespace umbrix::render {
 
-extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodesAov, kTrianglesAov;
+extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodeTestsAov, kPrimitiveTestsAov, kKernelAov;
 
 namespace {
 
-const Aov* const kTable[] = {&kNormalAov, &kDepthAov, &kAlbedoAov, &kShadowAov, &kNodesAov, &kTrianglesAov};
+const Aov* const kTable[] = {&kNormalAov,    &kDepthAov,          &kAlbedoAov, &kShadowAov,
+                             &kNodeTestsAov, &kPrimitiveTestsAov, &kKernelAov};
 
 }  // namespace
 
@@ -21,7 +22,7 @@ const Aov* find_aov(const std::string& name) {
 
 std::vector<AovInfo> known_aovs() {
   std::vector<AovInfo> infos;
-  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary});
+  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary, aov->heat_map != HeatMapStyle::none});
   return infos;
 }
 

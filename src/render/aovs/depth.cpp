@@ -20,6 +20,8 @@ const Aov kDepthAov = {"depth",
                        Reduction::minimum,
                        std::numeric_limits<double>::infinity(),
                        false,
-                       contribute};
+                       contribute,
+                       HeatMapStyle::scale,
+                       "along the viewing axis, in scene units"};
 
 }  // namespace umbrix::render

@@ -19,6 +19,8 @@ const Aov kShadowAov = {"shadow",
                         Reduction::mean,
                         0,
                         false,
-                        contribute};
+                        contribute,
+                        HeatMapStyle::scale,
+                        "share of shadow rays that see their light"};
 
 }  // namespace umbrix::render

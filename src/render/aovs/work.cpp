@@ -5,28 +5,36 @@
 namespace umbrix::render {
 namespace {
 
-double contribute_nodes(const CameraSample& sample, double* values) {
+double contribute_node_tests(const CameraSample& sample, double* values) {
   values[0] = static_cast<double>(sample.node_tests);
   return 1;
 }
 
-double contribute_triangles(const CameraSample& sample, double* values) {
+double contribute_primitive_tests(const CameraSample& sample, double* values) {
   values[0] = static_cast<double>(sample.primitive_tests);
   return 1;
 }
 
 }  // namespace
 
-extern const Aov kNodesAov, kTrianglesAov;
-const Aov kNodesAov = {
-    "nodes",         "node tests of the shadow rays of a camera sample, mean", {"nodes.Y"}, Reduction::mean, 0, true,
-    contribute_nodes};
-const Aov kTrianglesAov = {"triangles",
-                           "triangle tests of the shadow rays of a camera sample, mean",
-                           {"triangles.Y"},
+extern const Aov kNodeTestsAov, kPrimitiveTestsAov;
+const Aov kNodeTestsAov = {"node_tests",
+                           "node tests of the shadow rays of a camera sample, mean",
+                           {"node_tests.Y"},
                            Reduction::mean,
                            0,
                            true,
-                           contribute_triangles};
+                           contribute_node_tests,
+                           HeatMapStyle::scale,
+                           "of shadow rays, per camera sample"};
+const Aov kPrimitiveTestsAov = {"primitive_tests",
+                                "triangle tests of the shadow rays of a camera sample, mean",
+                                {"primitive_tests.Y"},
+                                Reduction::mean,
+                                0,
+                                true,
+                                contribute_primitive_tests,
+                                HeatMapStyle::scale,
+                                "of shadow rays, per camera sample"};
 
 }  // namespace umbrix::render

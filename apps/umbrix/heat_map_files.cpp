@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "heat_map_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "render/heat_map/heat_map.h"
+#include "signals.h"
+
+namespace umbrix::app {
+namespace {
+
+HeatMapFile parse_heat_map(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals + 1 == text.size()) {
+    throw CLI::ValidationError(fmt::format("--heat-map: '{}' is not of the form AOV=FILE.png", text));
+  }
+  HeatMapFile map = {text.substr(0, equals), text.substr(equals + 1)};
+  std::string names;
+  for (const render::AovInfo& aov : render::known_aovs()) {
+    if (!aov.heat_map) continue;
+    if (aov.name == map.aov) return map;
+    names += (names.empty() ? "" : ", ") + aov.name;
+  }
+  throw CLI::ValidationError(fmt::format("--heat-map: '{}' is not one of {}", map.aov, names));
+}
+
+bool is_png(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png";
+}
+
+/// Heat maps are not photographs: exposure and tone map would falsify their colours.
+io::WriteOptions heat_map_options(const RenderArguments& a) {
+  io::WriteOptions options;
+  options.overwrite = a.write.overwrite;
+  return options;
+}
+
+}  // namespace
+
+void add_heat_map_option(CLI::App& command, RenderArguments& a) {
+  const auto add = [&a](const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) a.heat_maps.push_back(parse_heat_map(text));
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--heat-map", add, "Draw an AOV in false colours with a legend (and put it into an EXR); may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("AOV=FILE.png");
+}
+
+std::vector<std::string> rendered_aovs(const RenderArguments& a) {
+  std::vector<std::string> aovs = a.aovs;
+  for (const HeatMapFile& map : a.heat_maps) aovs.push_back(map.aov);
+  return aovs;
+}
+
+std::vector<std::string> heat_map_files(const RenderArguments& a) {
+  std::vector<std::string> paths;
+  for (const HeatMapFile& map : a.heat_maps) paths.push_back(map.path);
+  return paths;
+}
+
+Status check_heat_maps(const RenderArguments& a) {
+  for (const HeatMapFile& map : a.heat_maps) {
+    if (!is_png(map.path)) return {StatusCode::output_failed, fmt::format("{}: a heat map is a .png", map.path)};
+    if (Status status = io::check_output(map.path, heat_map_options(a)); !status) return status;
+  }
+  return {};
+}
+
+Status write_heat_maps(const RenderJob& job) {
+  for (const HeatMapFile& map : job.arguments.heat_maps) {
+    if (interrupted()) return {StatusCode::cancelled, "interrupted"};
+    io::Image picture;
+    if (Status status = render::make_heat_map(map.aov, job.image, job.stats, picture); !status) return status;
+    picture.metadata = job.image.metadata;
+    picture.metadata.emplace_back("umbrix:heat_map", map.aov);
+    if (Status status = io::write_image(map.path, picture, heat_map_options(job.arguments)); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace umbrix::app

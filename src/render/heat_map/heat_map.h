@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "render/render_stats.h"
+#include "umbrix/io/image_file.h"
+#include "umbrix/status.h"
+
+namespace umbrix::render {
+
+/// Draws one AOV of a rendered image in colours that a person can read, with a legend below, as a picture for a PNG
+/// (channels R, G and B). The image's pixels are at its upper left, one for one; the picture is wider than the image
+/// only if the legend needs it.
+///
+/// One number a pixel goes through viridis, from 0 to the 99.5th percentile rounded up; where that is not the largest
+/// value, the legend says ">=". The `kernel` AOV mixes one colour for each route; `stats`, of the same render, give the
+/// routes' shares of all rays.
+///
+/// invalid_argument: no such AOV, one that is no heat map (see AovInfo), or not in the image. resource_limit: memory.
+Status make_heat_map(const std::string& aov, const io::Image& image, const RenderStats& stats, io::Image& picture);
+
+}  // namespace umbrix::render
