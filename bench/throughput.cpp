@@ -180,6 +180,14 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
       peer.seconds.push_back(time_once(peer, rays, peer.answers.data(), settings.threads));
     }
   }
+  if (getenv("COUNT")) for (std::size_t k = 0; k < kernel_count(); ++k) {
+    std::string n = kernel_info(k).name; if (n == "brute") continue;
+    QueryOptions o; (void)find_kernel(n.c_str(), o.kernel); (void)scene.prepare(o.kernel);
+    OcclusionCounts c; std::vector<std::uint8_t> out(rays.size());
+    scene.occluded({rays.data(), rays.size()}, out.data(), c, o);
+    auto q = [](std::uint64_t a, const RayCounts& r) { return double(a) / double(r.rays); };
+    fmt::print("  {:10} occ node {:.1f} prim {:.1f} | un node {:.1f} prim {:.1f} leaf {:.1f}\n", n, q(c.occluded.node_tests, c.occluded), q(c.occluded.primitive_tests, c.occluded), q(c.unoccluded.node_tests, c.unoccluded), q(c.unoccluded.primitive_tests, c.unoccluded), q(c.unoccluded.leaf_visits, c.unoccluded));
+  }
   judge(geometry, rays, peers);
   report(geometry, rays, peers, rows);
   any_wrong = any_wrong || std::any_of(peers.begin(), peers.end(),

@@ -11,6 +11,8 @@
   KERNEL(kStandardKernel)      \
   KERNEL(kLinkedKernel)        \
   KERNEL(kRopesKernel)         \
+  KERNEL(kWideKernel)          \
+  KERNEL(kBeamKernel)          \
   KERNEL(kBruteKernel)
 
 namespace umbrix {

@@ -14,11 +14,16 @@ int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std
   return -exponent;
 }
 
+Triangle scaled(const Triangle& triangle, int exponent) {
+  const double factor = std::ldexp(1.0, exponent);
+  Triangle result;
+  for (int i = 0; i < 3; ++i) result.v[i] = Vec3(DVec3(triangle.v[i]) * factor);
+  return result;
+}
+
 std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
   std::vector<Triangle> result(triangles);
-  const double factor = std::ldexp(1.0, exponent);
-  for (Triangle& t : result)
-    for (Vec3& v : t.v) v = Vec3(DVec3(v) * factor);
+  for (Triangle& t : result) t = scaled(t, exponent);
   return result;
 }
 

@@ -10,6 +10,9 @@ namespace umbrix::detail {
 /// The exponent of the power of two that brings the largest coordinate of the kept triangles into [0.5, 1).
 int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept);
 
+/// The triangle times 2^exponent.
+Triangle scaled(const Triangle& triangle, int exponent);
+
 /// All triangles times 2^exponent: exact, but for coordinates 2^126 times smaller than the largest.
 std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent);
 
