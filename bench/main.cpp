@@ -20,6 +20,7 @@ constexpr Entry kCommands[] = {
     {"stress", "Judge every kernel, and Embree, on hard rays by exact arithmetic", stress_command},
     {"throughput", "Shadow rays per second of every kernel and of Embree, on the same rays", throughput_command},
     {"build", "Build time and memory, against Embree", build_command},
+    {"table1", "Tests a ray, time and memory of every kernel in a frame: the table of Liang & Huang (2019)", table1_command},
 };
 
 }  // namespace

@@ -14,9 +14,9 @@
 
 #include "command.h"
 #include "embree/embree_scene.h"
-#include "oracle/brute_force.h"
 #include "report.h"
 #include "umbrix/umbrix.h"
+#include "workload/disputes.h"
 #include "workload/geometry.h"
 #include "workload/shadow_rays.h"
 
@@ -93,20 +93,10 @@ double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* o
 
 // Whatever the peers do not agree on, exact arithmetic decides.
 void judge(const workload::Geometry& geometry, const std::vector<Ray>& rays, std::vector<Peer>& peers) {
-  std::vector<std::size_t> disputed;
-  std::vector<Ray> disputed_rays;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto agrees = [&](const Peer& peer) { return peer.answers[i] == peers[0].answers[i]; };
-    if (std::all_of(peers.begin(), peers.end(), agrees)) continue;
-    disputed.push_back(i);
-    disputed_rays.push_back(rays[i]);
-  }
-  if (disputed.empty()) return;
-  const oracle::BruteForce truth(geometry.triangle_list());
-  const std::vector<std::uint8_t> right = truth.occluded(disputed_rays);
-  for (Peer& peer : peers) {
-    for (std::size_t i = 0; i < disputed.size(); ++i) peer.wrong += peer.answers[disputed[i]] != right[i] ? 1 : 0;
-  }
+  std::vector<const std::vector<std::uint8_t>*> answers;
+  for (const Peer& peer : peers) answers.push_back(&peer.answers);
+  const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, rays, answers);
+  for (std::size_t i = 0; i < peers.size(); ++i) peers[i].wrong = wrong[i];
 }
 
 double rays_per_microsecond(const Peer& peer, std::size_t rays) {
@@ -179,14 +169,6 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
     for (Peer& peer : peers) {
       peer.seconds.push_back(time_once(peer, rays, peer.answers.data(), settings.threads));
     }
-  }
-  if (getenv("COUNT")) for (std::size_t k = 0; k < kernel_count(); ++k) {
-    std::string n = kernel_info(k).name; if (n == "brute") continue;
-    QueryOptions o; (void)find_kernel(n.c_str(), o.kernel); (void)scene.prepare(o.kernel);
-    OcclusionCounts c; std::vector<std::uint8_t> out(rays.size());
-    scene.occluded({rays.data(), rays.size()}, out.data(), c, o);
-    auto q = [](std::uint64_t a, const RayCounts& r) { return double(a) / double(r.rays); };
-    fmt::print("  {:10} occ node {:.1f} prim {:.1f} | un node {:.1f} prim {:.1f} leaf {:.1f}\n", n, q(c.occluded.node_tests, c.occluded), q(c.occluded.primitive_tests, c.occluded), q(c.unoccluded.node_tests, c.unoccluded), q(c.unoccluded.primitive_tests, c.unoccluded), q(c.unoccluded.leaf_visits, c.unoccluded));
   }
   judge(geometry, rays, peers);
   report(geometry, rays, peers, rows);

@@ -151,6 +151,10 @@ void Scene::Impl::make_view() {
   view = {&tree, triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(), all_plain};
 }
 
+const detail::SceneView* detail::SceneAccess::view(const Scene& scene) noexcept {
+  return scene.impl_ && scene.impl_->committed ? &scene.impl_->view : nullptr;
+}
+
 Status Scene::commit(const BuildOptions& options) {
   try {
     if (!impl_) impl_ = std::make_unique<Impl>();
@@ -167,7 +171,7 @@ Status Scene::commit(const BuildOptions& options) {
     s.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     s.make_view();
     s.committed = true;
-    return {};
+    return prepare(KernelId{});  // the default kernel needs little, and grows as rays want it
   } catch (const std::bad_alloc&) {
     impl_.reset();
     return {StatusCode::resource_limit, "scene: out of memory while building the tree"};
@@ -196,6 +200,11 @@ Status Scene::prepare(KernelId kernel, const Training& training, PrepareStats* s
   } catch (const std::exception& e) {
     return {StatusCode::internal, std::string("scene: the executor failed: ") + e.what()};
   }
+}
+
+std::uint64_t Scene::prepared_bytes(KernelId kernel) const noexcept {
+  const detail::SideTable* side = impl_ && impl_->committed ? impl_->view_for(kernel).side : nullptr;
+  return side ? side->bytes() : 0;
 }
 
 bool Scene::occluded(const Ray& ray, const QueryOptions& options) const noexcept {

@@ -58,19 +58,16 @@ bool shadow_ray(const Ray& primary, const Hit& hit, const oracle::Triangle& tria
   return true;
 }
 
-// Pixels as coherent packets want them: tiles of 16x16, in them blocks of 4x4.
-std::vector<std::array<int, 2>> image_order(int size) {
+constexpr int kTile = 16;
+
+// Pixels of a tile as coherent packets want them: in blocks of 4x4.
+std::vector<std::array<int, 2>> tile_pixels(int tile_x, int tile_y, int size) {
   std::vector<std::array<int, 2>> pixels;
-  const auto inside = [size](int x, int y) { return x < size && y < size; };
-  for (int tile_y = 0; tile_y < size; tile_y += 16) {
-    for (int tile_x = 0; tile_x < size; tile_x += 16) {
-      for (int i = 0; i < 256; ++i) {
-        const int block = i / 16, within = i % 16;
-        const int x = tile_x + 4 * (block % 4) + within % 4;
-        const int y = tile_y + 4 * (block / 4) + within / 4;
-        if (inside(x, y)) pixels.push_back({x, y});
-      }
-    }
+  for (int i = 0; i < kTile * kTile; ++i) {
+    const int block = i / 16, within = i % 16;
+    const int x = tile_x + 4 * (block % 4) + within % 4;
+    const int y = tile_y + 4 * (block / 4) + within / 4;
+    if (x < size && y < size) pixels.push_back({x, y});
   }
   return pixels;
 }
@@ -91,20 +88,32 @@ Status find_viewpoint(const Geometry& geometry, const std::string& setup_path, V
   return {};
 }
 
-std::vector<Ray> shadow_rays(const Scene& scene, const Geometry& geometry, const io::Camera& camera,
-                             const io::Light& light, int size) {
+TiledRays tiled_shadow_rays(const Scene& scene, const Geometry& geometry, const io::Camera& camera,
+                            const io::Light& light, int size) {
   const render::Camera view(camera, size, size);
   const double offset = 1e-5 * diagonal(scene);
-  std::vector<Ray> rays;
-  for (const auto& [x, y] : image_order(size)) {
-    const Ray primary = view.ray(x + 0.5, y + 0.5);
-    Hit hit;
-    Ray ray;
-    if (scene.closest(primary, hit) && shadow_ray(primary, hit, geometry.triangle(hit.primitive), light, offset, ray)) {
-      rays.push_back(ray);
+  TiledRays tiled;
+  for (int tile_y = 0; tile_y < size; tile_y += kTile) {
+    for (int tile_x = 0; tile_x < size; tile_x += kTile) {
+      tiled.tile_starts.push_back(tiled.rays.size());
+      for (const auto& [x, y] : tile_pixels(tile_x, tile_y, size)) {
+        const Ray primary = view.ray(x + 0.5, y + 0.5);
+        Hit hit;
+        Ray ray;
+        if (!scene.closest(primary, hit)) continue;
+        if (!shadow_ray(primary, hit, geometry.triangle(hit.primitive), light, offset, ray)) continue;
+        tiled.rays.push_back(ray);
+        tiled.pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+      }
     }
   }
-  return rays;
+  tiled.tile_starts.push_back(tiled.rays.size());
+  return tiled;
+}
+
+std::vector<Ray> shadow_rays(const Scene& scene, const Geometry& geometry, const io::Camera& camera,
+                             const io::Light& light, int size) {
+  return tiled_shadow_rays(scene, geometry, camera, light, size).rays;
 }
 
 }  // namespace umbrix::workload

@@ -14,6 +14,10 @@
 
 namespace umbrix {
 
+namespace detail {
+struct SceneAccess;
+}
+
 /// How much time a commit may spend on the tree.
 enum class BuildQuality {
   high,  ///< exact surface area heuristic, triangles clipped to cells (Wald & Havran 2006)
@@ -77,6 +81,9 @@ class UMBRIX_API Scene {
   /// invalid_argument: not committed. resource_limit: no memory; the kernel then walks as "standard" does.
   Status prepare(KernelId kernel, const Training& training = {}, PrepareStats* stats = nullptr);
 
+  /// What a kernel holds beside the tree now, after growing as rays wanted it; 0 if it was not prepared.
+  std::uint64_t prepared_bytes(KernelId kernel) const noexcept;
+
   /// Is something between the ray's ends?
   bool occluded(const Ray& ray, const QueryOptions& options = {}) const noexcept;
 
@@ -99,6 +106,7 @@ class UMBRIX_API Scene {
   bool bounds(float lower[3], float upper[3]) const noexcept;
 
  private:
+  friend struct detail::SceneAccess;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -4,6 +4,7 @@
 /// Everything a host renderer needs; see scene.h first.
 
 #include "umbrix/executor.h"
+#include "umbrix/frame.h"
 #include "umbrix/kernel.h"
 #include "umbrix/mesh.h"
 #include "umbrix/ray.h"

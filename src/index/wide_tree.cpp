@@ -61,6 +61,18 @@ class Members {
   std::uint32_t count_ = 0;
 };
 
+/// Bounds of the triangle's part in the cell grown by eps. Exact clipping is for triangles that are large in it.
+Box part_bounds(const Triangle& triangle, const Box& cell, float eps) {
+  Box box;
+  for (const Vec3& v : triangle.v) box.extend(v);
+  const Box around = grown(cell, eps);
+  const Vec3 inside = glm::min(box.upper, around.upper) - glm::max(box.lower, around.lower);
+  const Vec3 all = box.extent();
+  const bool is_large = all.x > 2 * inside.x || all.y > 2 * inside.y || all.z > 2 * inside.z;
+  if (is_large) return clipped_bounds(triangle, cell, static_cast<double>(eps));
+  return {glm::max(box.lower, around.lower), glm::min(box.upper, around.upper)};
+}
+
 }  // namespace
 
 WideTree::WideTree(const Tree& tree, const Triangle* triangles)
@@ -79,7 +91,7 @@ Box WideTree::contents(const Node& leaf, const Box& cell) const noexcept {
     const Block& block = tree_.blocks[leaf.first_block() + b];
     for (std::uint32_t lane = 0; lane < block.count; ++lane) {
       const Triangle triangle = scaled(triangles_[block.id[lane]], tree_.scale_exponent);
-      result.extend(clipped_bounds(triangle, cell, static_cast<double>(tree_.eps)));
+      result.extend(part_bounds(triangle, cell, tree_.eps));
     }
   }
   return result.empty() ? result : grown(result, tree_.eps);

@@ -28,6 +28,9 @@ namespace HWY_NAMESPACE {
 struct Segment {
   WalkRay ray;
   Interval within;
+
+  float start(int axis) const { return ray.origin[axis] + ray.direction[axis] * within.t0; }
+  float end(int axis) const { return ray.origin[axis] + ray.direction[axis] * within.t1; }
 };
 
 /// Leaves that hold something, with their cells. A fixed store that lists are stacked in, each behind the one it was
@@ -52,8 +55,7 @@ class Beam {
     for (std::uint32_t i = 0; i < count; ++i) {
       const Segment& s = segments[names[i]];
       for (int k = 0; k < 3; ++k) {
-        const float start = s.ray.origin[k] + s.ray.direction[k] * s.within.t0;
-        const float end = s.ray.origin[k] + s.ray.direction[k] * s.within.t1;
+        const float start = s.start(k), end = s.end(k);
         starts_.lower[k] = std::min(starts_.lower[k], start);
         starts_.upper[k] = std::max(starts_.upper[k], start);
         ends_.lower[k] = std::min(ends_.lower[k], end);
@@ -74,8 +76,9 @@ class Beam {
   /// The box of the segments' starts.
   const Box& starts() const { return starts_; }
 
+  /// The area of the starts' box as seen along the beam, times the beam's length.
   float size() const {
-    const Vec3 d = ends_.lower + ends_.upper - starts_.lower - starts_.upper;
+    const Vec3 d = 0.5f * (ends_.lower + ends_.upper - starts_.lower - starts_.upper);
     const Vec3 e = starts_.extent();
     return std::abs(d.x) * e.y * e.z + std::abs(d.y) * e.z * e.x + std::abs(d.z) * e.x * e.y;
   }

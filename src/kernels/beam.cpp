@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups of rays that come one after the other share one walk: see beam-inl.h. A group whose list is long is cut in two
-// where its starts are widest apart, and each half picks its leaves from the list of the whole.
+// Groups of rays that share a walk: see group-inl.h.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/beam.cpp"
@@ -8,14 +7,14 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
-#include "kernels/group-inl.h"
+#include "kernels/batch-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 namespace {
 
-const EntryPoints& beam() { return group_entry_points(); }
+const EntryPoints& beam_entry_points() { return batch_entry_points<false>(); }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -23,14 +22,6 @@ const EntryPoints& beam() { return group_entry_points(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace umbrix::detail {
-namespace {
-
-std::unique_ptr<SideTable> make_beam(const PrepareInput& input) {
-  return std::make_unique<WideTree>(*input.scene.tree, input.scene.triangles);
-}
-
-}  // namespace
-}  // namespace umbrix::detail
-UMBRIX_DEFINE_KERNEL(kBeamKernel, beam, "beam", "one walk for a group of rays, which then pick their leaves", make_beam)
+UMBRIX_DEFINE_KERNEL(kBeamKernel, beam_entry_points, "beam", "one walk for a group of rays, which then pick their leaves",
+                     make_wide_tree)
 #endif

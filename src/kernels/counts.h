@@ -42,6 +42,12 @@ struct CountEach {
   void missing_link() noexcept { ++counts.links_missing; }
   void restart() noexcept { ++counts.restarts; }
   bool blocked_by(const Block&, std::uint32_t) noexcept { return true; }
+
+  /// Adds more work for the same ray.
+  void add(const CountEach& more) noexcept {
+    counts += more.counts;
+    counts.rays = 1;
+  }
 };
 
 }  // namespace umbrix::detail

@@ -1,4 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+// Rays that start near each other, answered together. A ray that is guessed to be occluded first meets what blocked the
+// rays before it, or what a memory names. The others share one walk (beam-inl.h): a beam that is much thinner in two
+// halves is cut before it, one whose list is long after it, and then each half picks its leaves from the list of the
+// whole.
+//
+// A memory says what is known of a ray from before this call. It has
+//   void place(rays, begin, order, count);      finds where the rays belong that `order` names, from `begin` on
+//   Guess guess(i);  std::uint32_t blocker(i);  what is known there
+//   void learn(i, occluded, blocker);           after each answer by a walk or a candidate
+
 #if defined(UMBRIX_KERNELS_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_GROUP_INL_H_
 #undef UMBRIX_KERNELS_GROUP_INL_H_
@@ -8,211 +18,256 @@
 
 #include <hwy/highway.h>
 
-#include <cstdlib>
-#include <cstdio>
+#include <limits>
 
 #include "kernels/beam-inl.h"
+#include "kernels/candidates-inl.h"
+#include "kernels/group_rays.h"
 #include "kernels/tree_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-inline int knob(const char* name, int def) { const char* v = std::getenv(name); return v ? std::atoi(v) : def; }
-
-template <class Counts>
-struct Learn : Counts {
-  const Block* block = nullptr;
-  std::uint32_t lane = 0;
-  bool blocked_by(const Block& b, std::uint32_t l) noexcept { block = &b; lane = l; return true; }
-};
-/// Answers up to kMost rays together.
-template <class Counts>
+template <class Memory, class Counts>
 class Group {
  public:
-  static constexpr std::uint32_t kMost = 256;
+  Group(const SceneView& scene, const WideTree& tree, const GroupRays& rays, Memory& memory, bool try_candidates)
+      : scene_(scene),
+        tree_(tree),
+        rays_(rays),
+        memory_(memory),
+        filter_(scene, rays.mask),
+        recent_(scene),
+        try_candidates_(try_candidates) {}
 
-  Group(const SceneView& scene, const QueryOptions& options) : scene_(scene), tree_(*static_cast<const WideTree*>(scene.side)), filter_(scene, options), skip_(options.skip) {
-    cached_.count = 0;
-    cached_.edge_bound = 0;
+  /// Answers all rays.
+  void trace() {
+    for (begin_ = 0; begin_ < rays_.rays.count; begin_ += kMostRays) {
+      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, rays_.rays.count - begin_));
+      prepare_all(count);
+      memory_.place(rays_, begin_, order_, active_);
+      if (try_candidates_) try_remembered();
+      if (active_ > 0) share_walk(0, active_);
+      work_.deliver(rays_, begin_, count);
+    }
   }
 
-  void trace(RaySpan rays, std::size_t begin, std::uint32_t count, std::uint8_t* out, Counts* each) {
-    std::uint32_t active = 0;
+  const CandidateTries& tries() const { return tries_; }
+
+ private:
+  /// Longer lists cost more than cutting the group.
+  static constexpr std::uint32_t kMostLeaves = 256;
+  /// Smaller groups gain less from sharing than they lose.
+  static constexpr std::uint32_t kFewRays = 16, kFewestRays = 4;
+  /// A list as short as this is not cut any more.
+  static constexpr std::uint32_t kFewLeaves = 8;
+  /// Two halves that together are smaller than this much of the whole are better apart.
+  static constexpr float kThinner = 0.75f;
+  /// How the largest beam changes after one whose list was too long, and after one that was not.
+  static constexpr float kShrink = 0.4f, kGrow = 1.1f;
+
+  /// Sets up all rays, and answers those that need no walk or cannot share one.
+  void prepare_all(std::uint32_t count) {
+    active_ = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Ray& ray = rays[begin + i];
-      out[i] = 0;
+      const Ray& ray = rays_.rays[begin_ + i];
+      rays_.out[begin_ + i] = 0;
+      work_.set_route(i, RayRoute::other);
       if (HWY_UNLIKELY(!is_valid(ray))) {
-        each[i].invalid_ray();
+        work_.of(i).invalid_ray();
         continue;
       }
       Segment& segment = segments_[i];
       if (HWY_UNLIKELY(prepare(ray, *scene_.tree, segment.ray) == Reach::far)) {
-        if (skip_) filter_.set_skip(skip_[begin + i]);
-        out[i] = far_occluded(scene_, filter_, ray, each[i]);
+        choose_skip(i);
+        rays_.out[begin_ + i] = far_occluded(scene_, filter_, ray, work_.of(i));
         continue;
       }
       segment.within = clip_to_root(segment.ray, scene_.tree->root);
-      if (segment.within.t0 <= segment.within.t1) order_[active++] = static_cast<std::uint16_t>(i);
+      if (segment.within.t0 <= segment.within.t1) order_[active_++] = static_cast<std::uint16_t>(i);
     }
-    rays_ = rays;
-    begin_ = begin;
-    out_ = out;
-    each_ = each;
-    if (active > 0) split(0, active);
   }
 
- private:
-  void split(std::uint32_t first, std::uint32_t count) {
-    static const int min_rays = knob("BEAM_MINRAYS", 8);
-    static const std::uint32_t most = (std::uint32_t)knob("BEAM_MOST", 256);
+  /// Rays guessed to be occluded meet what blocked there before; those that it does not block stay for the walk.
+  void try_remembered() {
+    std::uint32_t left = 0;
+    for (std::uint32_t k = 0; k < active_; ++k) {
+      const std::uint16_t i = order_[k];
+      const std::uint32_t blocker = memory_.sure_blocker(i);
+      tried_[i] = blocker != Primitive::kNone && candidates_pay();
+      if (tried_[i]) {
+        recent_.add(blocker);
+        Noticed<Counts> counts;
+        const bool blocked = meets_candidates(i, counts);
+        work_.add(i, counts);
+        if (blocked) {
+          finish(i, true, RayRoute::cached, counts);
+          continue;
+        }
+      }
+      order_[left++] = i;
+    }
+    active_ = left;
+  }
+
+  void share_walk(std::uint32_t first, std::uint32_t count) {
     const Beam beam(segments_, order_ + first, count, *scene_.tree);
-    static const float ratio = (float)knob("BEAM_RATIO", 75) * 0.01f;
-    static const std::uint32_t pre = (std::uint32_t)knob("BEAM_PRE", 32);
-    static long walks = 0, nodes = 0, leaves = 0, fails = 0, rays = 0; 
-    if (count >= pre && ratio > 0) {
-      const std::uint32_t cut = cut_at(beam, first, count);
-      const Beam a(segments_, order_ + first, cut, *scene_.tree), b(segments_, order_ + first + cut, count - cut, *scene_.tree);
-      if (a.size() + b.size() < ratio * beam.size()) {
-      split(first, cut);
-      split(first + cut, count - cut);
+    if (count <= kFewestRays) {
+      for (std::uint32_t k = first; k < first + count; ++k) walk_alone(order_[k]);
       return;
-      }
     }
-    LeafSpan span;
+    if (beam.size() > size_limit_ || is_better_apart(beam, first, count)) {
+      share_halves(beam, first, count);
+      return;
+    }
+    LeafSpan leaves;
     Counts shared;
-    if (!beam.gather(tree_, list_, span, most, shared)) { ++fails;
-      if (count <= (std::uint32_t)min_rays) {
-        for (std::uint32_t i = first; i < first + count; ++i) alone(order_[i]);
-        return;
-      }
-      const std::uint32_t cut = cut_at(beam, first, count);
-      split(first, cut);
-      split(first + cut, count - cut);
-      return;
+    const bool complete = beam.gather(tree_, list_, leaves, kMostLeaves, shared);
+    work_.share(shared, order_ + first, count);
+    if (complete) {
+      size_limit_ *= kGrow;
+      pick_leaves(beam, leaves, first, count);
+    } else {
+      // What is near is alike: spare the beams to come the same.
+      size_limit_ = kShrink * beam.size();
+      share_halves(beam, first, count);
     }
-    if constexpr (!std::is_same_v<Counts, NoCounts>) { walks++; nodes += shared.counts.node_tests; leaves += shared.counts.leaf_visits; rays += count;
-     if (walks % 1000 == 0) fprintf(stderr, "walks %ld nodes %.1f leaves %.1f fails %ld rays/walk %.1f\n", walks, double(nodes)/walks, double(leaves)/walks, fails, double(rays)/walks); }
-    charge(shared, first, count);
-    refine(beam, span, first, count);
   }
 
-  void refine(const Beam& beam, LeafSpan span, std::uint32_t first, std::uint32_t count) {
-    static const std::uint32_t short_list = (std::uint32_t)knob("BEAM_SHORT", 8);
-    static const std::uint32_t min_split = (std::uint32_t)knob("BEAM_MINSPLIT", 16);
-    if (span.count == 0) return;
-    if (span.count <= short_list || count <= min_split || span.end() + span.count + 8 > LeafList::kRoom) {
-      for (std::uint32_t i = first; i < first + count; ++i) one(order_[i], span);
+  void share_halves(const Beam& beam, std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t cut = cut_at(beam, first, count);
+    share_walk(first, cut);
+    share_walk(first + cut, count - cut);
+  }
+
+  bool is_better_apart(const Beam& beam, std::uint32_t first, std::uint32_t count) {
+    if (count < 2 * kFewRays) return false;
+    const std::uint32_t cut = cut_at(beam, first, count);
+    const Beam low(segments_, order_ + first, cut, *scene_.tree);
+    const Beam high(segments_, order_ + first + cut, count - cut, *scene_.tree);
+    return low.size() + high.size() < kThinner * beam.size();
+  }
+
+  void pick_leaves(const Beam& beam, LeafSpan leaves, std::uint32_t first, std::uint32_t count) {
+    const bool no_room = leaves.end() + leaves.count + kBlockLanes > LeafList::kRoom;
+    if (leaves.count <= kFewLeaves || count <= kFewRays || no_room) {
+      for (std::uint32_t k = first; k < first + count; ++k) walk_list(order_[k], leaves);
       return;
     }
     const std::uint32_t cut = cut_at(beam, first, count);
-    for (int half = 0; half < 2; ++half) {
-      const std::uint32_t f = half ? first + cut : first, n = half ? count - cut : cut;
-      const Beam part(segments_, order_ + f, n, *scene_.tree);
-      refine(part, part.pick(list_, span), f, n);
+    for (const bool high : {false, true}) {
+      const std::uint32_t from = high ? first + cut : first, size = high ? count - cut : cut;
+      const Beam half(segments_, order_ + from, size, *scene_.tree);
+      pick_leaves(half, half.pick(list_, leaves), from, size);
     }
   }
 
-  void charge(const Counts& shared, std::uint32_t first, std::uint32_t count) {
-    if constexpr (!std::is_same_v<Counts, NoCounts>) {
-      for (std::uint32_t i = 0; i < count; ++i)
-        each_[order_[first + i]].counts.node_tests += shared.counts.node_tests / count + (i < shared.counts.node_tests % count);
-    }
-  }
-
+  /// Orders the rays so that those on the low side of the middle of the starts' longest extent come first, and returns
+  /// how many that are; a half if they are all on one side.
   std::uint32_t cut_at(const Beam& beam, std::uint32_t first, std::uint32_t count) {
     const Vec3 e = beam.starts().extent();
     const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
     const float middle = 0.5f * (beam.starts().lower[axis] + beam.starts().upper[axis]);
-    std::uint16_t high[kMost];
+    std::uint16_t high[kMostRays];
     std::uint32_t lows = 0, highs = 0;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const Segment& s = segments_[order_[i]];
-      if (s.ray.origin[axis] + s.ray.direction[axis] * s.within.t0 < middle) order_[first + lows++] = order_[i];
-      else high[highs++] = order_[i];
+    for (std::uint32_t k = first; k < first + count; ++k) {
+      const std::uint16_t i = order_[k];
+      if (segments_[i].start(axis) < middle)
+        order_[first + lows++] = i;
+      else
+        high[highs++] = i;
     }
     std::copy(high, high + highs, order_ + first + lows);
     return lows == 0 || highs == 0 ? count / 2 : lows;
   }
 
-  void remember(const Block& b, std::uint32_t lane) {
-    static const std::uint32_t K = (std::uint32_t)knob("BEAM_K", 4);
-    if (&b == &cached_) return;
-    std::uint32_t at = next_++ % K;
-    if (cached_.count < K) at = cached_.count++;
-    for (int k = 0; k < 3; ++k) { cached_.v0[k][at] = b.v0[k][lane]; cached_.e1[k][at] = b.e1[k][lane]; cached_.e2[k][at] = b.e2[k][lane]; }
-    cached_.id[at] = b.id[lane];
-    cached_.edge_bound = std::max(cached_.edge_bound, b.edge_bound);
-  }
-  template <class F> void answer(std::uint32_t i, F&& f) {
-    const Ray& ray = rays_[begin_ + i];
-    if (skip_) filter_.set_skip(skip_[begin_ + i]);
-    const Segment& s = segments_[i];
-    const LeafTest test(s.ray);
-    Learn<Counts> learn;
-    bool occ = false;
-    static const bool on = knob("BEAM_CACHE", 1);
-    if (on && last_ && cached_.count > 0) {
-      const float reach = 30 + cached_.edge_bound;
-      learn.indexed(cached_.count);
-      occ = block_blocks(scene_, filter_, ray, test, s.ray, cached_, reach, learn);
-      hits += occ;
-      tries++;
-    }
-    if (!occ) occ = f(ray, s, test, learn);
-    if (occ && learn.block) remember(*learn.block, learn.lane);
-    add(each_[i], learn);
-    last_ = occ;
-    out_[i] = occ;
-  }
-  static void add(NoCounts&, const NoCounts&) {}
-  static void add(CountEach& a, const CountEach& b) { const auto r = a.counts.rays; a.counts += b.counts; a.counts.rays = r; }
-  void alone(std::uint32_t i) {
-    answer(i, [&](const Ray& ray, const Segment& s, const LeafTest& test, auto& learn) { return wide_walk(tree_, s.within, s.ray,
-        [&](BlockRun run, float, float t1) { return leaf_blocks(scene_, filter_, ray, test, s.ray, run, t1, learn); }, learn); });
+  void walk_alone(std::uint16_t i) {
+    answer(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
+      return wide_walk(tree_, segment.within, segment.ray, leaf, counts);
+    });
   }
 
-  void one(std::uint32_t i, LeafSpan span) {
-    answer(i, [&](const Ray& ray, const Segment& s, const LeafTest& test, auto& learn) { return visit_crossed(list_, span, s,
-        [&](BlockRun run, float, float t1) { return leaf_blocks(scene_, filter_, ray, test, s.ray, run, t1, learn); }, learn); });
+  void walk_list(std::uint16_t i, LeafSpan leaves) {
+    answer(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
+      return visit_crossed(list_, leaves, segment, leaf, counts);
+    });
   }
-  public: long hits = 0, tries = 0; private:
-  bool last_ = false; std::uint32_t next_ = 0;
+
+  /// Answers a ray by candidates, if it is guessed to be occluded, and else by a walk.
+  template <class Walk>
+  HWY_INLINE void answer(std::uint16_t i, Walk&& walk) {
+    Noticed<Counts> counts;
+    bool occluded = false;
+    RayRoute route = RayRoute::beam;
+    if (try_candidates_ && !tried_[i] && !recent_.empty() && expects_occlusion(i) && candidates_pay()) {
+      occluded = meets_candidates(i, counts);
+      if (occluded) route = RayRoute::cached;
+    }
+    if (!occluded) {
+      choose_skip(i);
+      const Ray& ray = rays_.rays[begin_ + i];
+      const Segment& segment = segments_[i];
+      const LeafTest test(segment.ray);
+      const auto leaf = [&](BlockRun run, float, float t1) {
+        return leaf_blocks(scene_, filter_, ray, test, segment.ray, run, t1, counts);
+      };
+      occluded = walk(segment, leaf, counts);
+    }
+    work_.add(i, counts);
+    finish(i, occluded, route, counts);
+  }
+
+  bool meets_candidates(std::uint16_t i, Noticed<Counts>& counts) {
+    choose_skip(i);
+    const LeafTest test(segments_[i].ray);
+    const bool blocked = recent_.block(filter_, rays_.rays[begin_ + i], test, segments_[i].ray, counts);
+    ++tries_.tried;
+    tries_.blocked += blocked ? 1 : 0;
+    return blocked;
+  }
+
+  void finish(std::uint16_t i, bool occluded, RayRoute route_taken, const Noticed<Counts>& counts) {
+    rays_.out[begin_ + i] = occluded ? 1 : 0;
+    work_.set_route(i, route_taken);
+    memory_.learn(i, occluded, counts.blocker());
+    last_occluded_ = occluded;
+    if (try_candidates_ && occluded && counts.block) recent_.add(*counts.block, counts.lane);
+  }
+
+  /// What the ray before met says most, and then what is remembered.
+  bool expects_occlusion(std::uint16_t i) {
+    if (last_occluded_) return true;
+    if (memory_.guess(i) != Guess::occluded) return false;
+    if (memory_.blocker(i) != Primitive::kNone) recent_.add(memory_.blocker(i));
+    return true;
+  }
+
+  /// Among leaves of trees no blocker lasts from ray to ray: after a few tries in vain there are no more.
+  bool candidates_pay() const { return tries_.tried < 32 || 4 * tries_.blocked >= tries_.tried; }
+
+  void choose_skip(std::uint32_t i) {
+    if (rays_.skip) filter_.set_skip(rays_.skip[begin_ + i]);
+  }
 
   const SceneView& scene_;
   const WideTree& tree_;
+  const GroupRays& rays_;
+  Memory& memory_;
+  GroupWork<Counts> work_;
   Filter filter_;
-  const Primitive* skip_;
-  RaySpan rays_;
+  Candidates recent_;
+  bool try_candidates_;
+  bool last_occluded_ = false;
+  float size_limit_ = std::numeric_limits<float>::max();
+  CandidateTries tries_;
   std::size_t begin_ = 0;
-  std::uint8_t* out_ = nullptr;
-  Counts* each_ = nullptr;
-  Block cached_;
-  std::uint16_t order_[kMost];
-  Segment segments_[kMost];
+  std::uint32_t active_ = 0;
+  bool tried_[kMostRays] = {};
+  std::uint16_t order_[kMostRays];  ///< the active rays
+  Segment segments_[kMostRays];
   LeafList list_;
 };
-
-inline void group_occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-  static const std::size_t run = (std::size_t)knob("BEAM_RUN", 256);
-  Group<NoCounts> group(scene, options);
-  static NoCounts none[256];
-  for (std::size_t i = 0; i < rays.count; i += run) group.trace(rays, i, (std::uint32_t)std::min<std::size_t>(run, rays.count - i), out + i, none);
-}
-inline void group_occluded_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options, OcclusionCounts& counts) {
-  static const std::size_t run = (std::size_t)knob("BEAM_RUN", 256);
-  Group<CountEach> group(scene, options);
-  for (std::size_t i = 0; i < rays.count; i += run) {
-    CountEach each[256];
-    const auto n = (std::uint32_t)std::min<std::size_t>(run, rays.count - i);
-    group.trace(rays, i, n, out + i, each);
-    for (std::uint32_t k = 0; k < n; ++k) (out[i + k] ? counts.occluded : counts.unoccluded) += each[k].counts;
-  }
-}
-inline const EntryPoints& group_entry_points() {
-  static const EntryPoints e = {&group_occluded, &group_occluded_counted, entry_points<TreeKernel<StackWalk>>().closest, entry_points<TreeKernel<StackWalk>>().closest_counted};
-  return e;
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail

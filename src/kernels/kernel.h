@@ -42,6 +42,9 @@ struct Kernel {
                            prepare_function};                                                \
   }  // namespace umbrix::detail
 
+/// Prepares the kernels that have a WideTree as their side table.
+std::unique_ptr<SideTable> make_wide_tree(const PrepareInput& input);
+
 /// The table of kernels, and the place of the default one.
 std::size_t kernel_table_size() noexcept;
 std::size_t kernel_place(KernelId id) noexcept;

@@ -35,7 +35,7 @@ inline Hit to_hit(const SceneView& scene, const Nearest& nearest) {
 
 template <class K>
 void occluded_each(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-  Filter filter(scene, options);
+  Filter filter(scene, options.mask);
   typename K::State state(scene);
   NoCounts none;
   for (std::size_t i = 0; i < rays.count; ++i) {
@@ -47,7 +47,7 @@ void occluded_each(const SceneView& scene, RaySpan rays, std::uint8_t* out, cons
 template <class K>
 void occluded_each_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options,
                            OcclusionCounts& counts) {
-  Filter filter(scene, options);
+  Filter filter(scene, options.mask);
   typename K::State state(scene);
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);
@@ -59,7 +59,7 @@ void occluded_each_counted(const SceneView& scene, RaySpan rays, std::uint8_t* o
 
 template <class K>
 void closest_each(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
-  Filter filter(scene, options);
+  Filter filter(scene, options.mask);
   typename K::State state(scene);
   NoCounts none;
   for (std::size_t i = 0; i < rays.count; ++i) {
@@ -73,7 +73,7 @@ void closest_each(const SceneView& scene, RaySpan rays, Hit* out, const QueryOpt
 template <class K>
 void closest_each_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,
                           RayCounts& counts) {
-  Filter filter(scene, options);
+  Filter filter(scene, options.mask);
   typename K::State state(scene);
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (options.skip) filter.set_skip(options.skip[i]);

@@ -34,6 +34,12 @@ struct SceneView {
   const SideTable* side = nullptr;  ///< of the kernel that is asked, if it was prepared
 };
 
+/// The inside of a scene, for what is built on it.
+struct SceneAccess {
+  /// Null before commit. As it stands until the scene is gone.
+  static const SceneView* view(const Scene& scene) noexcept;
+};
+
 /// For kernels that answer each ray by itself.
 struct NoState {
   explicit NoState(const SceneView&) {}
@@ -42,8 +48,8 @@ struct NoState {
 /// Which triangles are there for one ray.
 class Filter {
  public:
-  Filter(const SceneView& scene, const QueryOptions& options) noexcept
-      : scene_(scene), mask_(options.mask), plain_(scene.all_plain && options.mask == 0xFFFFFFFFu) {}
+  Filter(const SceneView& scene, std::uint32_t mask) noexcept
+      : scene_(scene), mask_(mask), plain_(scene.all_plain && mask == 0xFFFFFFFFu) {}
 
   /// The triangle to leave out for the next ray.
   void set_skip(const Primitive& p) noexcept {

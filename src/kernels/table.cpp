@@ -8,6 +8,7 @@
 
 // In the order shown to users; the first is the default.
 #define UMBRIX_KERNELS(KERNEL) \
+  KERNEL(kAutoKernel)          \
   KERNEL(kStandardKernel)      \
   KERNEL(kLinkedKernel)        \
   KERNEL(kRopesKernel)         \

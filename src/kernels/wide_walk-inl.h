@@ -89,6 +89,25 @@ HWY_INLINE bool wide_walk(const WideTree& tree, Interval at, const WalkRay& ray,
   }
 }
 
+/// The walk of kernels that have a WideTree as their side table.
+struct WideWalk {
+  struct State {
+    const WideTree* tree;
+
+    explicit State(const SceneView& scene) : tree(static_cast<const WideTree*>(scene.side)) {}
+  };
+  static constexpr bool kNearFirst = false;
+
+  template <class Leaf, class Counts>
+  static HWY_INLINE bool walk(const SceneView& scene, State& state, const WalkRay& ray, const float& limit, Leaf&& leaf,
+                              Counts& counts) {
+    const Interval at = clip_to_root(ray, scene.tree->root);
+    if (!(at.t0 <= at.t1)) return false;
+    if (HWY_UNLIKELY(!state.tree)) return stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
+    return wide_walk(*state.tree, at, ray, leaf, counts);
+  }
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail
 HWY_AFTER_NAMESPACE();

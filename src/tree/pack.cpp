@@ -26,25 +26,28 @@ float bound(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-18)); }
 
 void pack_block(const std::uint32_t* ids, std::uint32_t count, const std::vector<Triangle>& scaled, float diagonal,
                 Block& block) {
-  double longest = 0;
+  block.edge_bound = 0;
   for (std::uint32_t lane = 0; lane < kBlockLanes; ++lane) {
     const std::uint32_t id = ids[lane < count ? lane : 0];
-    const Triangle& t = scaled[id];
-    const Vec3 e1 = t.v[1] - t.v[0], e2 = t.v[2] - t.v[0];
-    for (int axis = 0; axis < 3; ++axis) {
-      block.v0[axis][lane] = t.v[0][axis];
-      block.e1[axis][lane] = e1[axis];
-      block.e2[axis][lane] = e2[axis];
-    }
-    block.id[lane] = id;
-    longest = std::max({longest, glm::length(DVec3(e1)), glm::length(DVec3(e2))});
+    pack_lane(id, scaled[id], lane, block);
   }
   block.count = count;
-  block.edge_bound = bound(longest);
-  block.reach = bound(longest + static_cast<double>(diagonal));
+  block.reach = bound(static_cast<double>(block.edge_bound) + static_cast<double>(diagonal));
 }
 
 }  // namespace
+
+void pack_lane(std::uint32_t id, const Triangle& scaled, std::uint32_t lane, Block& block) {
+  const Vec3 e1 = scaled.v[1] - scaled.v[0], e2 = scaled.v[2] - scaled.v[0];
+  for (int axis = 0; axis < 3; ++axis) {
+    block.v0[axis][lane] = scaled.v[0][axis];
+    block.e1[axis][lane] = e1[axis];
+    block.e2[axis][lane] = e2[axis];
+  }
+  block.id[lane] = id;
+  const double longest = std::max(glm::length(DVec3(e1)), glm::length(DVec3(e2)));
+  block.edge_bound = std::max(block.edge_bound, bound(longest));
+}
 
 void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, const CostModel& cost,
                  const Executor* executor, Tree& tree, BuildStats& stats) {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Table 1 of Liang & Huang (2019) for any scene: what each kernel's rays cost, by what was true of them, in the last
+// frame of a moving camera. Counts come from a run of their own; in each round every kernel is timed once, and medians
+// are shown.
+#include <fmt/core.h>
+
+#include <cmath>
+#include <memory>
+
+#include "command.h"
+#include "report.h"
+#include "table1/contestant.h"
+#include "table1/table1_report.h"
+#include "workload/disputes.h"
+#include "workload/geometry.h"
+
+namespace umbrix::bench {
+namespace {
+
+struct Settings {
+  std::vector<std::string> scenes;
+  std::vector<std::string> kernels = {"all"};
+  std::string setup, json, csv;
+  std::string light = "0";
+  int size = 1024;
+  int frames = 2;
+  int rounds = 3;
+  double motion = 0.01;
+};
+
+double diagonal(const Scene& scene) {
+  float lower[3], upper[3];
+  if (!scene.bounds(lower, upper)) return 0;
+  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
+}
+
+// The camera moves along its right axis, by `motion` of the scene's diagonal a frame; the setup's place is the last.
+Frames make_frames(const Settings& settings, const Scene& scene, const workload::Geometry& geometry,
+                   const workload::Viewpoint& viewpoint, const io::Light& light) {
+  Frames frames;
+  for (int i = 0; i < settings.frames; ++i) {
+    io::Camera camera = viewpoint.camera;
+    const double step = settings.motion * diagonal(scene) * (settings.frames - 1 - i);
+    for (auto& row : camera.to_world) row[3] -= step * row[0];
+    frames.push_back(workload::tiled_shadow_rays(scene, geometry, camera, light, settings.size));
+  }
+  return frames;
+}
+
+Status measure_light(const Settings& settings, Scene& scene, const workload::Geometry& geometry,
+                     const workload::Viewpoint& viewpoint, std::size_t light_index, std::vector<TableRow>& rows) {
+  const io::Light& light = viewpoint.lights[light_index];
+  const Frames frames = make_frames(settings, scene, geometry, viewpoint, light);
+  std::vector<std::unique_ptr<Contestant>> contestants;
+  if (Status status = make_contestants(settings.kernels, contestants); !status) return status;
+  float position[1][3];
+  for (std::size_t k = 0; k < 3; ++k) position[0][k] = static_cast<float>(light.position[k]);
+  Training lights;
+  if (light.type != io::LightType::directional) {
+    lights.lights = position;
+    lights.light_count = 1;
+  }
+
+  std::vector<TableRow> table(contestants.size());
+  for (std::size_t i = 0; i < contestants.size(); ++i) {
+    TableRow& row = table[i];
+    row.scene = geometry.name;
+    row.light = light_index;
+    row.kernel = contestants[i]->name();
+    row.build = scene.build_stats();
+    if (Status status = contestants[i]->run(scene, frames, lights, true, row.result); !status) return status;
+  }
+  for (int round = 0; round < settings.rounds; ++round) {
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+      FrameResult timed;
+      if (Status status = contestants[i]->run(scene, frames, lights, false, timed); !status) return status;
+      table[i].seconds.push_back(timed.seconds);
+      table[i].precompute_seconds.push_back(timed.precompute_seconds);
+    }
+  }
+  std::vector<const std::vector<std::uint8_t>*> answers;
+  for (const TableRow& row : table) answers.push_back(&row.result.answers);
+  const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, frames.back().rays, answers);
+  for (std::size_t i = 0; i < table.size(); ++i) table[i].wrong = wrong[i];
+  print_table(table);
+  rows.insert(rows.end(), table.begin(), table.end());
+  return {};
+}
+
+Status measure(const Settings& settings, const std::string& path, std::vector<TableRow>& rows) {
+  workload::Geometry geometry;
+  if (Status status = workload::load_geometry(path, geometry); !status) return status;
+  workload::Viewpoint viewpoint;
+  if (Status status = workload::find_viewpoint(geometry, settings.setup, viewpoint); !status) return status;
+  Scene scene;
+  if (Status status = workload::build_scene(geometry.views(), {}, scene); !status) return status;
+  for (std::size_t i = 0; i < viewpoint.lights.size(); ++i) {
+    if (settings.light != "all" && settings.light != std::to_string(i)) continue;
+    if (Status status = measure_light(settings, scene, geometry, viewpoint, i, rows); !status) return status;
+  }
+  if (settings.light != "all" && std::stoull(settings.light) >= viewpoint.lights.size())
+    return {StatusCode::invalid_argument,
+            fmt::format("{}: no light {}; there are {}", path, settings.light, viewpoint.lights.size())};
+  return {};
+}
+
+ExitCode run(const Settings& settings) {
+  fmt::print("Umbrix {} ({}), one thread, {} rounds, frame {} of a camera that moves by {} of the diagonal a frame\n",
+             version_string(), simd_target_name(0), settings.rounds, settings.frames, settings.motion);
+  std::vector<TableRow> rows;
+  for (const std::string& path : settings.scenes) {
+    if (const Status status = measure(settings, path, rows); !status) return fail(status);
+  }
+  if (const ExitCode code = write_json(settings.json, to_json(rows)); code != kDone) return code;
+  if (const ExitCode code = write_table_csv(settings.csv, rows); code != kDone) return code;
+  for (const TableRow& row : rows) {
+    if (row.wrong > 0) return kFailed;
+  }
+  return kDone;
+}
+
+}  // namespace
+
+std::function<ExitCode()> table1_command(CLI::App& app) {
+  auto settings = std::make_shared<Settings>();
+  const auto is_light = CLI::Validator(
+      [](const std::string& text) {
+        const bool number = !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+        return number || text == "all" ? std::string() : "'" + text + "' is neither a number nor 'all'";
+      },
+      "N|all");
+  app.add_option("scene", settings->scenes, "glTF files")->required();
+  app.add_option("--setup", settings->setup, "Camera and lights from this file");
+  app.add_option("--size", settings->size, "Primary rays in each direction")->check(CLI::Range(1, 1 << 14));
+  app.add_option("--frames", settings->frames, "Frames; the last one is counted")->check(CLI::Range(1, 1000));
+  app.add_option("--motion", settings->motion, "What the camera moves a frame, in scene diagonals")
+      ->check(CLI::Range(0.0, 10.0));
+  app.add_option("--rounds", settings->rounds, "Timed runs of each kernel")->check(CLI::Range(1, 1000));
+  app.add_option("--light", settings->light, "Which light, counted from 0, or all")->check(is_light);
+  app.add_option("--kernels", settings->kernels, "all, or some of them")->delimiter(',');
+  app.add_option("--json", settings->json, "Write the rows to this file");
+  app.add_option("--csv", settings->csv, "Write the rows to this file");
+  return [settings] { return run(*settings); };
+}
+
+}  // namespace umbrix::bench

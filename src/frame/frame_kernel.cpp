@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tile's rays by the frame's method: in groups, or each by the walk that its guess asks for.
+#include "frame/frame_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "frame/frame_kernel.cpp"
+
+#include <hwy/foreach_target.h>  // compiles this file once for each instruction set
+#include <hwy/highway.h>
+
+#include "kernels/group-inl.h"
+#include "kernels/link_walk-inl.h"
+#include "kernels/tree_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Answers each ray by itself.
+template <class Counts>
+class EachRay {
+ public:
+  explicit EachRay(FrameTile& tile)
+      : tile_(tile), filter_(tile.scene, tile.rays.mask), links_(linked_view()) {}
+
+  void trace() {
+    std::uint16_t order[kMostRays];
+    for (std::uint16_t i = 0; i < kMostRays; ++i) order[i] = i;
+    const std::size_t count = tile_.rays.rays.count;
+    for (std::size_t begin = 0; begin < count; begin += kMostRays) {
+      const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, count - begin));
+      tile_.memory.place(tile_.rays, begin, order, size);
+      for (std::uint32_t i = 0; i < size; ++i) answer(begin, i);
+      work_.deliver(tile_.rays, begin, size);
+    }
+  }
+
+ private:
+  SceneView linked_view() const {
+    SceneView view = tile_.scene;
+    view.side = tile_.tables.links;
+    return view;
+  }
+
+  void answer(std::size_t begin, std::uint32_t i) {
+    const Ray& ray = tile_.rays.rays[begin + i];
+    if (tile_.rays.skip) filter_.set_skip(tile_.rays.skip[begin + i]);
+    Noticed<Counts> counts;
+    const RayRoute route = choose(tile_.memory.guess(i));
+    const bool occluded = route == RayRoute::linked
+                              ? TreeKernel<LinkWalk>::occluded(links_, filter_, ray, link_state_, counts)
+                              : TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
+    work_.add(i, counts);
+    tile_.rays.out[begin + i] = occluded ? 1 : 0;
+    work_.set_route(i, route);
+    tile_.memory.learn(i, occluded, counts.blocker());
+  }
+
+  RayRoute choose(Guess guess) const {
+    if (tile_.method == FrameMethod::linked) return RayRoute::linked;
+    if (tile_.method == FrameMethod::indexed) return RayRoute::indexed;
+    if (tile_.method == FrameMethod::paper) return guess == Guess::occluded ? RayRoute::indexed : RayRoute::linked;
+    return RayRoute::other;
+  }
+
+  FrameTile& tile_;
+  GroupWork<Counts> work_;
+  Filter filter_;
+  SceneView links_;
+  LinkWalk::State link_state_{links_};
+  NoState no_state_{tile_.scene};
+};
+
+template <class Counts>
+void trace_with(FrameTile& tile) {
+  if (tile.method == FrameMethod::best || tile.method == FrameMethod::beam) {
+    Group<TileMemory, Counts> group(tile.scene, *tile.tables.wide, tile.rays, tile.memory,
+                                    tile.method == FrameMethod::best);
+    group.trace();
+    tile.tries = group.tries();
+  } else {
+    EachRay<Counts>(tile).trace();
+  }
+}
+
+void trace(FrameTile& tile) { tile.rays.counts() ? trace_with<CountEach>(tile) : trace_with<NoCounts>(tile); }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace umbrix::detail {
+namespace {
+
+HWY_EXPORT(trace);
+
+}  // namespace
+
+void trace_tile(FrameTile& tile) noexcept { HWY_DYNAMIC_DISPATCH(trace)(tile); }
+
+}  // namespace umbrix::detail
+#endif

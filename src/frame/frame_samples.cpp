@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "frame/frame_samples.h"
+
+#include <new>
+
+#include "kernels/walk-inl.h"
+
+namespace umbrix::detail {
+namespace {
+
+constexpr std::size_t kEvery = 16;
+
+using HWY_NAMESPACE::Interval;
+using HWY_NAMESPACE::WalkRay;
+
+/// Marks the leaves that the ray crosses within the interval, the empty ones too.
+void mark_leaves(const Tree& tree, std::uint32_t node_index, const WalkRay& ray, Interval at, std::vector<bool>& marks) {
+  const Node& node = tree.nodes[node_index];
+  if (node.is_leaf()) {
+    marks[node_index] = true;
+    return;
+  }
+  const float t = HWY_NAMESPACE::plane_time(ray, node.plane(), node.axis_bits());
+  const std::uint32_t near = node.low_child() + ray.far_low[node.axis_bits()];
+  if (t > at.t0) mark_leaves(tree, near, ray, {at.t0, std::min(at.t1, t)}, marks);
+  if (t < at.t1) mark_leaves(tree, near ^ 1u, ray, {std::max(at.t0, t), at.t1}, marks);
+}
+
+}  // namespace
+
+void FrameSamples::add(const ShadowTile& tile) noexcept try {
+  for (std::size_t i = 0; i < tile.rays.count; i += kEvery) rays_.push_back(tile.rays[i]);
+} catch (const std::bad_alloc&) {
+  // Fewer samples cost time only.
+}
+
+std::vector<bool> FrameSamples::touched_leaves(const Tree& tree) const {
+  std::vector<bool> marks(tree.nodes.size());
+  for (const Ray& ray : rays_) {
+    WalkRay walk_ray;
+    if (!is_valid(ray) || HWY_NAMESPACE::prepare(ray, tree, walk_ray) == HWY_NAMESPACE::Reach::far) continue;
+    const Interval at = HWY_NAMESPACE::clip_to_root(walk_ray, tree.root);
+    if (at.t0 <= at.t1) mark_leaves(tree, 0, walk_ray, at, marks);
+  }
+  return marks;
+}
+
+}  // namespace umbrix::detail

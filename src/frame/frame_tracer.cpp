@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "umbrix/frame.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <string>
+
+#include "frame/frame_kernel.h"
+#include "frame/frame_samples.h"
+#include "frame/tile_memory.h"
+
+namespace umbrix {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Status check(const FrameOptions& options) {
+  if (options.slots < 2 || options.slots > 1u << 28 || (options.slots & (options.slots - 1)) != 0)
+    return {StatusCode::invalid_argument, "frame tracer: slots must be a power of two from 2 to 2^28"};
+  if (!(options.cell > 0) || options.region == 0)
+    return {StatusCode::invalid_argument, "frame tracer: cell and region must be positive"};
+  return {};
+}
+
+/// Of the views of two frames: did the camera jump by a tenth of the scene, or turn by more than a quarter of a right
+/// angle?
+bool jumped(const FrameView& from, const FrameView& to, double extent) {
+  double moved = 0, dot = 0, from2 = 0, to2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    moved = std::hypot(moved, double{to.eye[k]} - double{from.eye[k]});
+    dot += double{to.forward[k]} * double{from.forward[k]};
+    from2 += double{from.forward[k]} * double{from.forward[k]};
+    to2 += double{to.forward[k]} * double{to.forward[k]};
+  }
+  constexpr double kCosine = 0.92387953;
+  return moved > 0.1 * extent || dot < kCosine * std::sqrt(from2 * to2);
+}
+
+void add(Confusion& sum, const Confusion& part) {
+  for (const int occluded : {0, 1}) {
+    sum.predicted_occluded[occluded] += part.predicted_occluded[occluded];
+    sum.predicted_unoccluded[occluded] += part.predicted_unoccluded[occluded];
+    sum.not_predicted[occluded] += part.not_predicted[occluded];
+  }
+}
+
+}  // namespace
+
+// Hidden: the class that holds it is exported.
+struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
+  Impl(const detail::SceneView& the_scene, const FrameOptions& the_options)
+      : scene(the_scene), options(the_options), memory(the_options.slots) {
+    const detail::Tree& tree = *scene.tree;
+    extent = std::ldexp(static_cast<double>(tree.root.largest_extent()), -tree.scale_exponent);
+    if (!(extent > 0) || !std::isfinite(extent)) extent = 1;
+    if (options.method == FrameMethod::best || options.method == FrameMethod::beam) {
+      wide = std::make_unique<detail::WideTree>(tree, scene.triangles);
+      tables.wide = wide.get();
+    }
+    if (options.method == FrameMethod::paper || options.method == FrameMethod::linked) make_links(options.links);
+  }
+
+  bool remembers() const { return options.method == FrameMethod::best || options.method == FrameMethod::paper; }
+
+  bool learns_from_rays() const {
+    return (tables.links && options.links == LinkMode::reached) ||
+           ((options.method == FrameMethod::paper || options.method == FrameMethod::indexed) &&
+            options.index == IndexMode::learned);
+  }
+
+  void make_links(LinkMode mode) {
+    using detail::LinkBuilder;
+    const LinkBuilder builder = mode == LinkMode::lazy   ? LinkBuilder::lazy
+                                : mode == LinkMode::full ? LinkBuilder::full
+                                                         : LinkBuilder::reached;
+    links = std::make_unique<detail::Links>(*scene.tree, builder);
+    if (mode == LinkMode::full) links->build_full(options.executor);
+    tables.links = links.get();
+  }
+
+  /// The paper's links of a frame: over the leaves that the last frame's rays touched.
+  void relink(const FrameView& next) {
+    if (!tables.links || options.links != LinkMode::reached || samples.empty()) return;
+    std::vector<detail::Vec3> lights;
+    for (std::size_t i = 0; i < next.light_count; ++i) {
+      const float* p = next.lights[i];
+      lights.push_back(detail::Vec3(detail::DVec3(p[0], p[1], p[2]) * std::ldexp(1.0, scene.tree->scale_exponent)));
+    }
+    make_links(LinkMode::reached);
+    links->build_reached(lights, samples.touched_leaves(*scene.tree));
+  }
+
+  std::uint64_t bytes() const {
+    return (remembers() ? memory.bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0);
+  }
+
+  detail::SceneView scene;
+  FrameOptions options;
+  double extent = 1;
+  detail::OcclusionMemory memory;
+  std::unique_ptr<detail::WideTree> wide;
+  std::unique_ptr<detail::Links> links;
+  detail::FrameTables tables;
+  detail::FrameSamples samples;
+  FrameView view;
+  bool any_frame = false;
+  bool in_frame = false;
+  FrameStats stats;
+  std::mutex mutex;  ///< of stats and samples, while tiles come in
+
+  void begin(const FrameView& next);
+  void trace(const ShadowTile& tile, std::uint8_t* out);
+  FrameStats end();
+};
+
+void FrameTracer::Impl::begin(const FrameView& next) {
+  const auto start = Clock::now();
+  stats = FrameStats();
+  stats.frame = next.frame;
+  stats.first = !any_frame;
+  stats.cut = any_frame && options.key == PredictorKey::screen &&
+              (next.frame != view.frame + 1 || next.width != view.width || next.height != view.height ||
+               jumped(view, next, extent));
+  if (stats.cut) memory.forget();
+  relink(next);
+  samples.clear();
+  view = next;
+  view.lights = nullptr;  // the host's, for this call only
+  any_frame = in_frame = true;
+  stats.precompute_seconds = seconds_since(start);
+}
+
+void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
+  const detail::PlaceFinder places(options, view.frame, extent);
+  detail::TileMemory tile_memory(memory, places, tile.light, tile.pixels, remembers());
+  detail::WorkSums sums;
+  std::uint64_t routes[kRayRoutes] = {};
+  detail::FrameTile work{scene, tables, options.method, {tile.rays, out, tile.skip, tile.mask}, tile_memory};
+  work.rays.routes = tile.routes;
+  work.rays.each = tile.each;
+  work.rays.sums = options.count_work ? &sums : nullptr;
+  work.rays.route_rays = routes;
+  detail::trace_tile(work);
+  tile_memory.store();
+  if (!in_frame) return;
+
+  const std::lock_guard<std::mutex> lock(mutex);
+  stats.rays += tile.rays.count;
+  for (std::size_t i = 0; i < tile.rays.count; ++i) stats.occluded += out[i];
+  add(stats.confusion, tile_memory.confusion());
+  stats.cache_tries += work.tries.tried;
+  stats.cache_hits += work.tries.blocked;
+  stats.counts.occluded += sums.counts.occluded;
+  stats.counts.unoccluded += sums.counts.unoccluded;
+  for (std::size_t route = 0; route < kRayRoutes; ++route) {
+    stats.routes[route] += routes[route];
+    for (const int occluded : {0, 1}) stats.route_counts[route][occluded] += sums.by_route[route][occluded];
+  }
+  if (learns_from_rays()) samples.add(tile);
+}
+
+FrameStats FrameTracer::Impl::end() {
+  const auto start = Clock::now();
+  if (remembers()) memory.next_frame();
+  in_frame = false;
+  stats.precompute_seconds += seconds_since(start);
+  stats.bytes = bytes();
+  return stats;
+}
+
+FrameTracer::FrameTracer() noexcept = default;
+FrameTracer::~FrameTracer() = default;
+FrameTracer::FrameTracer(FrameTracer&&) noexcept = default;
+FrameTracer& FrameTracer::operator=(FrameTracer&&) noexcept = default;
+
+Status FrameTracer::start(const Scene& scene, const FrameOptions& options) {
+  impl_.reset();
+  if (Status status = check(options); !status) return status;
+  const detail::SceneView* view = detail::SceneAccess::view(scene);
+  if (!view) return {StatusCode::invalid_argument, "frame tracer: the scene is not committed"};
+  try {
+    impl_ = std::make_unique<Impl>(*view, options);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::resource_limit, "frame tracer: out of memory"};
+  } catch (const std::exception& e) {
+    return {StatusCode::internal, std::string("frame tracer: the executor failed: ") + e.what()};
+  }
+}
+
+Status FrameTracer::begin_frame(const FrameView& view) {
+  if (!impl_) return {StatusCode::invalid_argument, "frame tracer: not started"};
+  if (impl_->in_frame) return {StatusCode::invalid_argument, "frame tracer: the last frame has not ended"};
+  try {
+    impl_->begin(view);
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::resource_limit, "frame tracer: out of memory for the frame's links and indices"};
+  } catch (const std::exception& e) {
+    return {StatusCode::internal, std::string("frame tracer: the executor failed: ") + e.what()};
+  }
+}
+
+void FrameTracer::occluded(const ShadowTile& tile, std::uint8_t* out) const noexcept {
+  if (impl_)
+    impl_->trace(tile, out);
+  else
+    std::fill(out, out + tile.rays.count, std::uint8_t{0});
+}
+
+FrameStats FrameTracer::end_frame() { return impl_ && impl_->in_frame ? impl_->end() : FrameStats(); }
+
+double FrameStats::regret() const noexcept {
+  const RayCounts& walked = route_counts[static_cast<std::size_t>(RayRoute::beam)][1];
+  if (rays == 0 || walked.rays == 0 || cache_tries == 0) return 0;
+  const auto work = [](const RayCounts& c) { return static_cast<double>(c.node_tests + c.primitive_tests); };
+  const double walk = work(walked) / static_cast<double>(walked.rays);
+  const double tests = static_cast<double>(counts.occluded.index_tests + counts.unoccluded.index_tests);
+  return (tests - static_cast<double>(cache_hits) * walk) / static_cast<double>(rays);
+}
+
+}  // namespace umbrix
