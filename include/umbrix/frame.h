@@ -55,7 +55,7 @@ struct FrameOptions {
   PredictorRule rule = PredictorRule::counter;
   std::uint32_t region = 8;          ///< pixels along a side, for PredictorKey::screen
   float cell = 1.0f / 256;           ///< of the scene's largest extent, for PredictorKey::object
-  std::uint32_t slots = 1u << 16;    ///< remembered places, a power of two, 16 bytes each; places share them by a hash
+  std::uint32_t slots = 1u << 15;    ///< remembered places, a power of two, 16 bytes each; places share them by a hash
   LinkMode links = LinkMode::lazy;   ///< for FrameMethod::paper and linked
   IndexMode index = IndexMode::learned;  ///< for FrameMethod::paper and indexed
   bool count_work = false;           ///< fill FrameStats::counts; slower

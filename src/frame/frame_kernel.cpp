@@ -32,6 +32,7 @@ class EachRay {
       const auto size = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, count - begin));
       tile_.memory.place(tile_.rays, begin, order, size);
       for (std::uint32_t i = 0; i < size; ++i) answer(begin, i);
+      tile_.memory.learn(tile_.rays.out, order, size);
       work_.deliver(tile_.rays, begin, size);
     }
   }
@@ -54,7 +55,7 @@ class EachRay {
     work_.add(i, counts);
     tile_.rays.out[begin + i] = occluded ? 1 : 0;
     work_.set_route(i, route);
-    tile_.memory.learn(i, occluded, counts.blocker());
+    if (occluded) tile_.memory.note_blocker(i, counts.blocker());
   }
 
   RayRoute choose(Guess guess) const {

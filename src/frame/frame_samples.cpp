@@ -39,7 +39,7 @@ std::vector<bool> FrameSamples::touched_leaves(const Tree& tree) const {
   for (const Ray& ray : rays_) {
     WalkRay walk_ray;
     if (!is_valid(ray) || HWY_NAMESPACE::prepare(ray, tree, walk_ray) == HWY_NAMESPACE::Reach::far) continue;
-    const Interval at = HWY_NAMESPACE::clip_to_root(walk_ray, tree.root);
+    const Interval at = HWY_NAMESPACE::clip_to_root(walk_ray, tree);
     if (at.t0 <= at.t1) mark_leaves(tree, 0, walk_ray, at, marks);
   }
   return marks;

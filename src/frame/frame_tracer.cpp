@@ -6,6 +6,7 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "frame/frame_kernel.h"
@@ -138,28 +139,29 @@ void FrameTracer::Impl::begin(const FrameView& next) {
 void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
   const detail::PlaceFinder places(options, view.frame, extent);
   detail::TileMemory tile_memory(memory, places, tile.light, tile.pixels, remembers());
-  detail::WorkSums sums;
+  std::optional<detail::WorkSums> sums;
+  if (options.count_work) sums.emplace();
   std::uint64_t routes[kRayRoutes] = {};
   detail::FrameTile work{scene, tables, options.method, {tile.rays, out, tile.skip, tile.mask}, tile_memory};
   work.rays.routes = tile.routes;
   work.rays.each = tile.each;
-  work.rays.sums = options.count_work ? &sums : nullptr;
+  work.rays.sums = sums ? &*sums : nullptr;
   work.rays.route_rays = routes;
   detail::trace_tile(work);
-  tile_memory.store();
   if (!in_frame) return;
 
   const std::lock_guard<std::mutex> lock(mutex);
   stats.rays += tile.rays.count;
-  for (std::size_t i = 0; i < tile.rays.count; ++i) stats.occluded += out[i];
+  stats.occluded += static_cast<std::uint64_t>(std::count(out, out + tile.rays.count, std::uint8_t{1}));
   add(stats.confusion, tile_memory.confusion());
   stats.cache_tries += work.tries.tried;
   stats.cache_hits += work.tries.blocked;
-  stats.counts.occluded += sums.counts.occluded;
-  stats.counts.unoccluded += sums.counts.unoccluded;
-  for (std::size_t route = 0; route < kRayRoutes; ++route) {
-    stats.routes[route] += routes[route];
-    for (const int occluded : {0, 1}) stats.route_counts[route][occluded] += sums.by_route[route][occluded];
+  for (std::size_t route = 0; route < kRayRoutes; ++route) stats.routes[route] += routes[route];
+  if (sums) {
+    stats.counts.occluded += sums->counts.occluded;
+    stats.counts.unoccluded += sums->counts.unoccluded;
+    for (std::size_t route = 0; route < kRayRoutes; ++route)
+      for (const int occluded : {0, 1}) stats.route_counts[route][occluded] += sums->by_route[route][occluded];
   }
   if (learns_from_rays()) samples.add(tile);
 }

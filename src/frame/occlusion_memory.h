@@ -17,11 +17,9 @@ namespace umbrix::detail {
 class Memory {
  public:
   explicit Memory(std::uint64_t bits = 0) noexcept : bits_(bits) {}
-  static Memory of_ray(bool occluded, std::uint32_t blocker) noexcept {
-    Memory m;
-    m.bits_ = (std::uint64_t{1} << (occluded ? kOccluded : kUnoccluded)) | (blocker + 1u);  // kNone becomes 0
-    return m;
-  }
+  Memory(std::uint32_t occluded, std::uint32_t unoccluded, std::uint32_t blocker) noexcept
+      : bits_((std::uint64_t{std::min(occluded, kVotes)} << kOccluded) |
+              (std::uint64_t{std::min(unoccluded, kVotes)} << kUnoccluded) | (blocker + 1u)) {}  // kNone becomes 0
 
   std::uint64_t bits() const noexcept { return bits_; }
   bool empty() const noexcept { return bits_ == 0; }

@@ -46,6 +46,8 @@ class PlaceFinder {
     return {light, cell(ray.origin[0]), cell(ray.origin[1]), cell(ray.origin[2])};
   }
 
+  bool takes_samples() const noexcept { return options_.rule == PredictorRule::sample; }
+
   /// Does this ray's outcome count? By PredictorRule::sample one pixel of each region does, another in each frame.
   bool is_sample(const Pixel* pixel) const noexcept {
     if (options_.rule != PredictorRule::sample || !pixel) return true;
@@ -80,22 +82,18 @@ class TileMemory {
         remembers_(remembers && (pixels || !places.needs_pixels())) {}
 
   void place(const GroupRays& rays, std::size_t begin, const std::uint16_t* order, std::uint32_t count) noexcept {
-    store();
     begin_ = begin;
     known_count_ = 0;
     Place place;
     for (std::uint32_t k = 0; k < count && remembers_; ++k) {
       const std::uint16_t i = order[k];
-      const Place here = places_.find(light_, rays.rays[begin + i], pixel(i));
-      if (known_count_ == 0 || !(here == place)) {
-        place = here;
-        Known& known = known_[known_count_++];
-        known.slot = memory_.slot(place.key());
-        const Memory last = memory_.last(known.slot);
-        known.guess = detail::guess(last, places_.rule());
-        known.is_sure = last.counter() == 3;
-        known.blocker = last.blocker();
-        known.seen = Memory();
+      // Cells are larger than the spacing of rays: a few neighbours go by the first of them.
+      if (places_.needs_pixels() || k % kTogether == 0) {
+        const Place here = places_.find(light_, rays.rays[begin + i], pixel(i));
+        if (known_count_ == 0 || !(here == place)) {
+          place = here;
+          recall(place);
+        }
       }
       known_of_[i] = static_cast<std::uint16_t>(known_count_ - 1);
     }
@@ -111,21 +109,37 @@ class TileMemory {
     return remembers_ ? known_[known_of_[i]].blocker : Primitive::kNone;
   }
 
-  void learn(std::uint32_t i, bool occluded, std::uint32_t blocker) noexcept {
-    const Guess guessed = guess(i);
-    std::uint64_t* const row = guessed == Guess::occluded     ? confusion_.predicted_occluded
-                               : guessed == Guess::unoccluded ? confusion_.predicted_unoccluded
-                                                              : confusion_.not_predicted;
-    ++row[occluded ? 1 : 0];
+  /// Hears of a triangle that blocked a ray.
+  void note_blocker(std::uint32_t i, std::uint32_t blocker) noexcept {
     if (!remembers_ || !places_.is_sample(pixel(i))) return;
     Known& known = known_[known_of_[i]];
-    known.seen = known.seen.merged(Memory::of_ray(occluded, blocker));
+    known.seen_blocker = std::max(known.seen_blocker, blocker + 1u);  // kNone becomes 0
   }
 
-  /// Hands over what was learned and is still held back.
-  void store() noexcept {
-    for (std::uint32_t k = 0; k < known_count_; ++k)
-      if (!known_[k].seen.empty()) memory_.learn(known_[k].slot, known_[k].seen);
+  /// Learns from the answers to the rays that were placed.
+  void learn(const std::uint8_t* out, const std::uint16_t* order, std::uint32_t count) noexcept {
+    if (!remembers_) return;
+    for (std::uint32_t k = 0; k < count;) {
+      // The rays of one place follow each other.
+      Known& known = known_[known_of_[order[k]]];
+      std::uint32_t rays = 0, occluded = 0;
+      for (; k < count && &known_[known_of_[order[k]]] == &known; ++k, ++rays) {
+        const std::uint32_t answer = out[begin_ + order[k]];
+        occluded += answer;
+        if (places_.takes_samples() && places_.is_sample(pixel(order[k]))) ++known.seen[answer];
+      }
+      known.outcomes[0] += rays - occluded;
+      known.outcomes[1] += occluded;
+    }
+    for (std::uint32_t k = 0; k < known_count_; ++k) {
+      const Known& known = known_[k];
+      std::uint64_t* const row = known.guess == Guess::occluded     ? confusion_.predicted_occluded
+                                 : known.guess == Guess::unoccluded ? confusion_.predicted_unoccluded
+                                                                    : confusion_.not_predicted;
+      for (const int occluded : {0, 1}) row[occluded] += known.outcomes[occluded];
+      const std::uint32_t* const seen = places_.takes_samples() ? known.seen : known.outcomes;
+      if (seen[0] + seen[1] > 0) memory_.learn(known.slot, Memory(seen[1], seen[0], known.seen_blocker - 1u));
+    }
     known_count_ = 0;
   }
 
@@ -137,8 +151,21 @@ class TileMemory {
     std::uint32_t blocker;
     Guess guess;
     bool is_sure;
-    Memory seen;
+    std::uint32_t outcomes[2];   ///< rays that were not occluded, and that were
+    std::uint32_t seen[2];       ///< of these, the samples, by PredictorRule::sample
+    std::uint32_t seen_blocker;  ///< plus one
   };
+  static constexpr std::uint32_t kTogether = 16;
+
+  void recall(const Place& place) noexcept {
+    Known& known = known_[known_count_++];
+    known.slot = memory_.slot(place.key());
+    const Memory last = memory_.last(known.slot);
+    known.guess = detail::guess(last, places_.rule());
+    known.is_sure = last.counter() == 3;
+    known.blocker = last.blocker();
+    known.outcomes[0] = known.outcomes[1] = known.seen[0] = known.seen[1] = known.seen_blocker = 0;
+  }
 
   const Pixel* pixel(std::uint32_t i) const noexcept { return pixels_ ? pixels_ + begin_ + i : nullptr; }
 

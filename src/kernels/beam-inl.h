@@ -24,13 +24,21 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// A segment of a ray in the tree: the times at which it enters and leaves the root.
+/// The part of a ray within the root, and where it starts and ends.
 struct Segment {
   WalkRay ray;
   Interval within;
+  alignas(16) float start[4];
+  alignas(16) float end[4];
 
-  float start(int axis) const { return ray.origin[axis] + ray.direction[axis] * within.t0; }
-  float end(int axis) const { return ray.origin[axis] + ray.direction[axis] * within.t1; }
+  void find_ends() {
+    const Lanes4 f;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(f)) {
+      const auto origin = hn::Load(f, ray.origin + k), direction = hn::Load(f, ray.direction + k);
+      hn::Store(hn::MulAdd(direction, hn::Set(f, within.t0), origin), f, start + k);
+      hn::Store(hn::MulAdd(direction, hn::Set(f, within.t1), origin), f, end + k);
+    }
+  }
 };
 
 /// Leaves that hold something, with their cells. A fixed store that lists are stacked in, each behind the one it was
@@ -52,20 +60,34 @@ class Beam {
  public:
   /// Around the segments named, which are at least one.
   Beam(const Segment* segments, const std::uint16_t* names, std::uint32_t count, const Tree& tree) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Segment& s = segments[names[i]];
-      for (int k = 0; k < 3; ++k) {
-        const float start = s.start(k), end = s.end(k);
-        starts_.lower[k] = std::min(starts_.lower[k], start);
-        starts_.upper[k] = std::max(starts_.upper[k], start);
-        ends_.lower[k] = std::min(ends_.lower[k], end);
-        ends_.upper[k] = std::max(ends_.upper[k], end);
-        largest_ = std::max(largest_, std::max(std::abs(s.ray.origin[k]), std::abs(end)));
+    const Lanes4 f;
+    alignas(16) float bounds[5][4];  // of starts, of ends, and the largest coordinate of origins
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(f)) {
+      const Segment& first = segments[names[0]];
+      auto start_low = hn::Load(f, first.start + k), start_high = start_low;
+      auto end_low = hn::Load(f, first.end + k), end_high = end_low;
+      auto farthest = hn::Zero(f);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Segment& s = segments[names[i]];
+        const auto start = hn::Load(f, s.start + k), end = hn::Load(f, s.end + k);
+        start_low = hn::Min(start_low, start);
+        start_high = hn::Max(start_high, start);
+        end_low = hn::Min(end_low, end);
+        end_high = hn::Max(end_high, end);
+        farthest = hn::Max(farthest, hn::Abs(hn::Load(f, s.ray.origin + k)));
       }
+      hn::Store(start_low, f, bounds[0] + k);
+      hn::Store(start_high, f, bounds[1] + k);
+      hn::Store(end_low, f, bounds[2] + k);
+      hn::Store(end_high, f, bounds[3] + k);
+      hn::Store(farthest, f, bounds[4] + k);
     }
-    // The tree's eps, the rounding of starts and ends (two roundings of values up to three times the largest), and that
-    // of plane times (as for a ray: within eps). Doubled.
-    const float margin = 4 * tree.eps + 0x1p-20f * largest_;
+    starts_ = {{bounds[0][0], bounds[0][1], bounds[0][2]}, {bounds[1][0], bounds[1][1], bounds[1][2]}};
+    ends_ = {{bounds[2][0], bounds[2][1], bounds[2][2]}, {bounds[3][0], bounds[3][1], bounds[3][2]}};
+    const float largest = std::max({bounds[4][0], bounds[4][1], bounds[4][2], 1.0f});
+    // The tree's eps, the rounding of starts and ends (of values up to twice the largest: coordinates within the root are
+    // at most 1), and that of plane times (as for a ray: within eps). Doubled.
+    const float margin = 4 * tree.eps + 0x1p-20f * largest;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const int k = static_cast<int>(axis);
       low_[axis] = Line(starts_.lower[k] - margin, ends_.lower[k] - margin);
@@ -184,7 +206,6 @@ class Beam {
   };
 
   Box starts_, ends_;
-  float largest_ = 0;
   Line low_[3], high_[3];
 };
 

@@ -15,7 +15,6 @@
 
 #include "kernels/tree_kernel-inl.h"
 #include "tree/pack.h"
-#include "tree/scale.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -27,10 +26,10 @@ class Candidates {
   static constexpr std::uint32_t kMost = 2;
 
   explicit Candidates(const SceneView& scene) : scene_(scene) {
+    // No ray comes here in scenes whose scale is beyond float's (see prepare).
+    scale_ = power_of_two(std::clamp(scene.tree->scale_exponent, -126, 126));
     block_.count = 0;
     block_.edge_bound = 0;
-    for (int k = 0; k < 3; ++k)
-      farthest_ += std::max(std::abs(scene.tree->root.lower[k]), std::abs(scene.tree->root.upper[k]));
   }
 
   bool empty() const { return block_.count == 0; }
@@ -38,7 +37,10 @@ class Candidates {
 
   /// Takes a triangle in, in place of the one that has been there longest.
   void add(std::uint32_t id) {
-    if (!holds(id)) pack_lane(id, scaled(scene_.triangles[id], scene_.tree->scale_exponent), next_lane(), block_);
+    if (holds(id)) return;
+    Triangle triangle = scene_.triangles[id];
+    for (Vec3& v : triangle.v) v *= scale_;
+    pack_lane(id, triangle, next_lane(), block_);
   }
 
   /// The same for one that has just been tested, and so is at hand.
@@ -58,8 +60,14 @@ class Candidates {
   HWY_INLINE bool block(const Filter& filter, const Ray& ray, const LeafTest& test, const WalkRay& walk_ray,
                         Counts& counts) const {
     counts.indexed(block_.count);
-    float reach = farthest_;
-    for (const float x : walk_ray.origin) reach += std::abs(x);
+    float reach = 0;
+    for (std::uint32_t lane = 0; lane < block_.count; ++lane) {
+      const float distance = std::abs(walk_ray.origin[0] - block_.v0[0][lane]) +
+                             std::abs(walk_ray.origin[1] - block_.v0[1][lane]) +
+                             std::abs(walk_ray.origin[2] - block_.v0[2][lane]);
+      reach = std::max(reach, distance);
+    }
+    reach *= 1 + 0x1p-20f;  // the sum's own rounding
     return block_blocks(scene_, filter, ray, test, walk_ray, block_, reach, counts);
   }
 
@@ -70,7 +78,7 @@ class Candidates {
   std::uint32_t next_lane() { return block_.count < kMost ? block_.count++ : next_++ % kMost; }
 
   const SceneView& scene_;
-  float farthest_ = 0;  ///< 1-norm of no vertex is larger
+  float scale_;
   std::uint32_t next_ = 0;
   Block block_;
 };

@@ -7,7 +7,8 @@
 // A memory says what is known of a ray from before this call. It has
 //   void place(rays, begin, order, count);      finds where the rays belong that `order` names, from `begin` on
 //   Guess guess(i);  std::uint32_t blocker(i);  what is known there
-//   void learn(i, occluded, blocker);           after each answer by a walk or a candidate
+//   void note_blocker(i, blocker);              as the answers come
+//   void learn(out, order, count);              when all have come
 
 #if defined(UMBRIX_KERNELS_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_GROUP_INL_H_
@@ -46,9 +47,13 @@ class Group {
     for (begin_ = 0; begin_ < rays_.rays.count; begin_ += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, rays_.rays.count - begin_));
       prepare_all(count);
-      memory_.place(rays_, begin_, order_, active_);
+      const std::uint32_t placed = active_;
+      std::uint16_t in_order[kMostRays];
+      std::copy(order_, order_ + placed, in_order);
+      memory_.place(rays_, begin_, in_order, placed);
       if (try_candidates_) try_remembered();
       if (active_ > 0) share_walk(0, active_);
+      memory_.learn(rays_.out, in_order, placed);
       work_.deliver(rays_, begin_, count);
     }
   }
@@ -84,8 +89,10 @@ class Group {
         rays_.out[begin_ + i] = far_occluded(scene_, filter_, ray, work_.of(i));
         continue;
       }
-      segment.within = clip_to_root(segment.ray, scene_.tree->root);
-      if (segment.within.t0 <= segment.within.t1) order_[active_++] = static_cast<std::uint16_t>(i);
+      segment.within = clip_to_root(segment.ray, *scene_.tree);
+      if (!(segment.within.t0 <= segment.within.t1)) continue;
+      segment.find_ends();
+      order_[active_++] = static_cast<std::uint16_t>(i);
     }
   }
 
@@ -173,7 +180,7 @@ class Group {
     std::uint32_t lows = 0, highs = 0;
     for (std::uint32_t k = first; k < first + count; ++k) {
       const std::uint16_t i = order_[k];
-      if (segments_[i].start(axis) < middle)
+      if (segments_[i].start[axis] < middle)
         order_[first + lows++] = i;
       else
         high[highs++] = i;
@@ -230,7 +237,7 @@ class Group {
   void finish(std::uint16_t i, bool occluded, RayRoute route_taken, const Noticed<Counts>& counts) {
     rays_.out[begin_ + i] = occluded ? 1 : 0;
     work_.set_route(i, route_taken);
-    memory_.learn(i, occluded, counts.blocker());
+    if (occluded) memory_.note_blocker(i, counts.blocker());
     last_occluded_ = occluded;
     if (try_candidates_ && occluded && counts.block) recent_.add(*counts.block, counts.lane);
   }

@@ -112,7 +112,8 @@ struct NoMemory {
   Guess guess(std::uint32_t) const noexcept { return Guess::unknown; }
   std::uint32_t sure_blocker(std::uint32_t) const noexcept { return Primitive::kNone; }
   std::uint32_t blocker(std::uint32_t) const noexcept { return Primitive::kNone; }
-  void learn(std::uint32_t, bool, std::uint32_t) noexcept {}
+  void note_blocker(std::uint32_t, std::uint32_t) noexcept {}
+  void learn(const std::uint8_t*, const std::uint16_t*, std::uint32_t) noexcept {}
 };
 
 }  // namespace umbrix::detail

@@ -22,7 +22,6 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Lanes8 = hn::CappedTag<float, kBlockLanes>;
 using FloatVec = hn::Vec<Lanes8>;
 using FloatMask = hn::Mask<Lanes8>;

@@ -20,11 +20,16 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// x, y, z and one lane to spare.
+using Lanes4 = hn::CappedTag<float, 4>;
+
 /// A ray in the tree's units, its direction scaled so that the largest component is in [1, 2).
 struct WalkRay {
-  float origin[3];
-  float direction[3];
-  float inverse[3];
+  alignas(16) float origin[4];
+  alignas(16) float direction[4];
+  alignas(16) float inverse[4];
   std::uint32_t far_low[3];  ///< 1 if the ray goes down this axis: the low child is then the far one
   float tmin, tmax;
   float length;       ///< the direction's 1-norm
@@ -58,23 +63,28 @@ HWY_INLINE Reach prepare(const Ray& ray, const Tree& tree, WalkRay& out) {
   if ((tree.scale_exponent > 6 || direction_exponent < -6 || time_exponent > 6) && has_denormals(ray))
     return Reach::far;
 
-  const float position_scale = power_of_two(tree.scale_exponent);
-  const float direction_scale = power_of_two(-direction_exponent);
-  const float margin = 4 * tree.root.largest_extent();
+  const Lanes4 f;
+  const auto position_scale = hn::Set(f, power_of_two(tree.scale_exponent));
+  const auto direction_scale = hn::Set(f, power_of_two(-direction_exponent));
+  const auto margin = hn::Set(f, 4 * tree.root.largest_extent());
+  const auto least = hn::Set(f, 0x1p-64f);
+  const BoxLanes& root = tree.root_lanes;
+  // The ray's floats in order: origin, tmin, direction, tmax. The spare lanes so hold tmin and tmax, which no one reads.
+  const float* const values = reinterpret_cast<const float*>(&ray);
   bool near = true;
-  out.length = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float o = ray.origin[k] * position_scale;
-    const float d = ray.direction[k] * direction_scale;
-    near &= o >= tree.root.lower[k] - margin && o <= tree.root.upper[k] + margin;
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(f)) {
+    const auto o = hn::Mul(hn::LoadU(f, values + k), position_scale);
+    const auto d = hn::Mul(hn::LoadU(f, values + 4 + k), direction_scale);
+    near &= hn::AllTrue(f, hn::And(hn::Ge(o, hn::Sub(hn::Load(f, root.lower + k), margin)),
+                                   hn::Le(o, hn::Add(hn::Load(f, root.upper + k), margin))));
     // A component of (almost) zero gets a time beyond all others; the point moves by less than 2^-58.
-    const float slope = std::abs(d) < 0x1p-64f ? std::copysign(0x1p-64f, d) : d;
-    out.origin[k] = o;
-    out.direction[k] = d;
-    out.inverse[k] = 1 / slope;
-    out.far_low[k] = slope < 0 ? 1u : 0u;
-    out.length += std::abs(d);
+    const auto slope = hn::IfThenElse(hn::Lt(hn::Abs(d), least), hn::CopySign(least, d), d);
+    hn::Store(o, f, out.origin + k);
+    hn::Store(d, f, out.direction + k);
+    hn::Store(hn::Div(hn::Set(f, 1.0f), slope), f, out.inverse + k);
   }
+  for (int k = 0; k < 3; ++k) out.far_low[k] = float_bits(out.inverse[k]) >> 31;
+  out.length = std::abs(out.direction[0]) + std::abs(out.direction[1]) + std::abs(out.direction[2]);
   out.time_scale = power_of_two_double(time_exponent);
   out.tmin = static_cast<float>(std::clamp(ray.tmin * out.time_scale, -kTimeLimit, kTimeLimit));
   out.tmax = static_cast<float>(std::clamp(ray.tmax * out.time_scale, -kTimeLimit, kTimeLimit));
@@ -90,16 +100,18 @@ struct Interval {
 };
 
 /// The part of the ray inside the tree's root. The ends are widened a little: a denormal one may have been rounded.
-HWY_INLINE Interval clip_to_root(const WalkRay& ray, const Box& root) {
-  Interval result{ray.tmin - 0x1p-100f, ray.tmax + 0x1p-100f};
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const int axis = static_cast<int>(k);
-    const float low = plane_time(ray, root.lower[axis], k);
-    const float high = plane_time(ray, root.upper[axis], k);
-    result.t0 = std::max(result.t0, std::min(low, high));
-    result.t1 = std::min(result.t1, std::max(low, high));
+HWY_INLINE Interval clip_to_root(const WalkRay& ray, const Tree& tree) {
+  const Lanes4 f;
+  alignas(16) float entry[4], exit[4];
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(f)) {
+    const auto origin = hn::Load(f, ray.origin + k), inverse = hn::Load(f, ray.inverse + k);
+    const auto low = hn::Mul(hn::Sub(hn::Load(f, tree.root_lanes.lower + k), origin), inverse);
+    const auto high = hn::Mul(hn::Sub(hn::Load(f, tree.root_lanes.upper + k), origin), inverse);
+    hn::Store(hn::Min(low, high), f, entry + k);
+    hn::Store(hn::Max(low, high), f, exit + k);
   }
-  return result;
+  return {std::max(std::max(ray.tmin - 0x1p-100f, entry[0]), std::max(entry[1], entry[2])),
+          std::min(std::min(ray.tmax + 0x1p-100f, exit[0]), std::min(exit[1], exit[2]))};
 }
 
 /// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0, t1)
@@ -154,7 +166,7 @@ struct StackWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State&, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    const Interval at = clip_to_root(ray, scene.tree->root);
+    const Interval at = clip_to_root(ray, *scene.tree);
     return at.t0 <= at.t1 && stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
   }
 };

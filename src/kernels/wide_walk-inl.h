@@ -101,7 +101,7 @@ struct WideWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State& state, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    const Interval at = clip_to_root(ray, scene.tree->root);
+    const Interval at = clip_to_root(ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
     if (HWY_UNLIKELY(!state.tree)) return stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
     return wide_walk(*state.tree, at, ray, leaf, counts);

@@ -23,6 +23,7 @@ Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::ui
     for (const Vec3& v : triangles[id].v) bounds.extend(v);
   tree.eps = 0x1p-20f * bounds.largest_extent();
   tree.root = grown(bounds, tree.eps);
+  tree.root_lanes = BoxLanes(tree.root);
 
   Cell cell;
   cell.box = tree.root;

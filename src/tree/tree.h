@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "core/math.h"
@@ -70,6 +71,17 @@ struct alignas(32) Block {
   std::uint32_t id[kBlockLanes];
 };
 
+/// A box as vectors want it: x, y, z and a lane without bounds.
+struct BoxLanes {
+  alignas(16) float lower[4] = {};
+  alignas(16) float upper[4] = {};
+
+  BoxLanes() = default;
+  explicit BoxLanes(const Box& box)
+      : lower{box.lower.x, box.lower.y, box.lower.z, -std::numeric_limits<float>::infinity()},
+        upper{box.upper.x, box.upper.y, box.upper.z, std::numeric_limits<float>::infinity()} {}
+};
+
 /// A KD-tree over triangles scaled by 2^scale_exponent so that the largest coordinate is in [0.5, 1): all plane times
 /// and filter bounds then stay in range for scenes of any size. Children tile their parent; a triangle is referenced by
 /// every leaf whose cell, grown by `eps`, it meets.
@@ -77,6 +89,7 @@ struct Tree {
   std::vector<Node> nodes;  ///< root first, then pairs of siblings from index 2
   std::vector<Block> blocks;
   Box root;  ///< bounds of the scaled triangles, grown by eps
+  BoxLanes root_lanes{Box()};
   float eps = 0;
   int scale_exponent = 0;
 };
