@@ -37,27 +37,38 @@ std::vector<std::string> report_files(const RenderArguments& a) {
   return {a.stats};
 }
 
+/// Refuses a file that is named twice, by whatever pattern, or is an input.
+Status check_names(const RenderArguments& a, const std::vector<std::string>& paths, std::set<std::string>& seen) {
+  std::error_code error;
+  for (const std::string& path : paths) {
+    if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
+      return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
+    }
+    for (const std::string& input : {a.scene, a.setup}) {
+      if (fs::equivalent(path, input, error)) return failed(path, "is an input of this command");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-Status check_outputs(const RenderArguments& a) {
+Status check_outputs(const RenderArguments& a, const std::vector<Frame>& frames) {
   std::set<std::string> seen;
-  std::error_code error;
-  for (const std::vector<std::string>& list : {a.outputs, report_files(a)}) {
-    for (const std::string& path : list) {
-      if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
-        return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
-      }
-      for (const std::string& input : {a.scene, a.setup}) {
-        if (fs::equivalent(path, input, error)) return failed(path, "is an input of this command");
-      }
-    }
+  if (Status status = check_names(a, report_files(a), seen); !status) return status;
+  for (const Frame& frame : frames) {
+    if (Status status = check_names(a, frame.outputs, seen); !status) return status;
   }
   const auto is_exr = [](const std::string& path) { return fs::path(path).extension() == ".exr"; };
   if (!a.aovs.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
     return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};
   }
-  for (const std::string& path : a.outputs) {
-    if (Status status = io::check_output(path, a.write); !status) return status;
+  io::WriteOptions options = a.write;
+  options.overwrite = a.write.overwrite || a.skip_existing;
+  for (const Frame& frame : frames) {
+    for (const std::string& path : frame.outputs) {
+      if (Status status = io::check_output(path, options); !status) return status;
+    }
   }
   return report_files(a).empty() ? Status() : check_stats_file(a);
 }

@@ -21,9 +21,11 @@ struct Size {
 /// The command line of `umbrix render`, checked for itself: numbers in range, names known.
 struct RenderArguments {
   std::string scene;
-  std::vector<std::string> outputs;
-  std::string setup;         ///< empty: none
-  std::string camera;        ///< name or number; empty: the first, or the setup's
+  std::vector<std::string> outputs;  ///< for frames, with a place for their number
+  std::string setup;                 ///< empty: none
+  std::string camera;                ///< name or number; empty: the first, or the setup's
+  std::vector<int> frames;           ///< empty: a still
+  double fps = 24;
   std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;
   std::uint32_t samples = 1;
@@ -35,6 +37,7 @@ struct RenderArguments {
   std::string simd_target;  ///< empty: the best
   BuildQuality build_quality = BuildQuality::high;
   int threads = 0;  ///< 0: all that are allowed
+  bool skip_existing = false;
   bool create_folders = false;
   bool dry_run = false;
   bool quiet = false;

@@ -20,4 +20,8 @@ Status camera_at(const Camera& camera, const Moment& moment, Camera& out) try {
   return {StatusCode::resource_limit, "not enough memory"};
 }
 
+std::array<double, 2> motion_span(const Camera& camera) {
+  return camera.motion ? camera.motion->span() : std::array<double, 2>{0, 0};
+}
+
 }  // namespace umbrix::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "umbrix/io/scene_file.h"
 
 namespace umbrix::io {
@@ -15,6 +17,9 @@ class CameraMotion {
 
   /// Sets what changes in `camera`. Throws LoadError if it has no direction then.
   virtual void move(const Moment& moment, Camera& camera) const = 0;
+
+  /// First and last key.
+  virtual std::array<double, 2> span() const = 0;
 };
 
 }  // namespace umbrix::io

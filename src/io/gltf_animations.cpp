@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "io/camera_motion.h"
@@ -51,6 +52,12 @@ glm::dmat4 matrix_at(const MovingNode& node, double seconds) {
   return to_matrix(pose, node.label);
 }
 
+template <class V>
+void widen(std::array<double, 2>& span, const std::optional<KeyTrack<V>>& track) {
+  if (!track) return;
+  span = {std::min(span[0], track->times.front()), std::max(span[1], track->times.back())};
+}
+
 // A node on the way to a camera.
 struct PathNode {
   glm::dmat4 rest = glm::dmat4(1);
@@ -69,6 +76,18 @@ class NodeMotion final : public CameraMotion {
     }
     if (!is_finite(to_world)) bad_input("{}: the transform is not finite", label_);
     camera.to_world = camera_frame(to_world, label_);
+  }
+
+  std::array<double, 2> span() const override {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::array<double, 2> span = {kInfinity, -kInfinity};
+    for (const PathNode& node : path_) {
+      if (!node.moving) continue;
+      widen(span, node.moving->translation);
+      widen(span, node.moving->rotation);
+      widen(span, node.moving->scale);
+    }
+    return span;
   }
 
  private:

@@ -68,6 +68,8 @@ class SetupMotion final : public CameraMotion {
     aim(view_at(moment.frame), "camera between keyframes", camera);
   }
 
+  std::array<double, 2> span() const override { return {frames_.front(), frames_.back()}; }
+
  private:
   View view_at(double frame) const {
     const KeyPlace place = find_place(frames_, frame);

@@ -148,6 +148,14 @@ TEST(Animation, NodesAboveTheCameraMoveIt) {
   expect_near(forward(at(eye, 1)), {-1, 0, 0});
 }
 
+TEST(Animation, SpanIsFromTheFirstToTheLastKeyOfAllThatMoves) {
+  Gltf g = with_camera();
+  g.animate(0, 1, "translation", {1, 2}, {0, 0, 0, 1, 1, 1});
+  g.animate(0, 1, "scale", {0.5f, 1.5f}, {1, 1, 1, 2, 2, 2});
+  EXPECT_EQ(motion_span(load(g).cameras[0]), (std::array<double, 2>{0.5, 2}));
+  EXPECT_EQ(motion_span(load(with_camera()).cameras[0]), (std::array<double, 2>{0, 0}));
+}
+
 TEST(Animation, ANodeMovedToItsPlaceAtRestChangesNoBit) {
   Gltf g = with_camera();
   g.json["nodes"][1]["translation"] = {0.125, 3, 7};

@@ -46,6 +46,7 @@ TEST(SetupKeyframes, LinearBetweenKeysAndHeldBeyondThem) {
     {"frame": 11, "eye": [10, 0, 5], "target": [10, 0, 0]},
     {"frame": 13.5, "eye": [0, 0, 5], "target": [0, 0, 0], "fov_y_degrees": 30}]})");
   EXPECT_EQ(eye_x(camera), 0) << "without frames it is as at its first key";
+  EXPECT_EQ(motion_span(camera), (std::array<double, 2>{1, 13.5}));
   EXPECT_EQ(eye_x(at(camera, -100)), 0);
   EXPECT_EQ(eye_x(at(camera, 1)), 0);
   EXPECT_NEAR(eye_x(at(camera, 4)), 3, 1e-12);

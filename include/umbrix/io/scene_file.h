@@ -97,6 +97,10 @@ struct Moment {
 /// Thread-safe. bad_input, in one line that names no file, if the camera has no direction then; `out` is as before.
 UMBRIX_API Status camera_at(const Camera& camera, const Moment& moment, Camera& out);
 
+/// From the first to the last key of what moves the camera: in seconds for a glTF animation's, in frames for a setup
+/// file's; zeros if nothing does.
+UMBRIX_API std::array<double, 2> motion_span(const Camera& camera);
+
 /// What a file holds, after all checks.
 struct SceneFile {
   std::string path;
