@@ -25,7 +25,7 @@ fs::path folder_of(const std::string& path) {
 Status check_stats_file(const RenderArguments& a) {
   std::error_code error;
   if (fs::is_directory(a.stats, error)) return failed(a.stats, "is a folder");
-  if (fs::exists(a.stats, error) && !a.write.overwrite)
+  if (fs::exists(a.stats, error) && !a.write.overwrite && !a.skip_existing)
     return failed(a.stats, "exists (use --overwrite to replace it)");
   if (!fs::is_directory(folder_of(a.stats), error)) return failed(a.stats, "its folder does not exist");
   if (access(folder_of(a.stats).c_str(), W_OK) != 0) return failed(a.stats, "its folder cannot be written to");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "commands.h"
@@ -85,8 +86,11 @@ Status write_report(const RenderJob& job) {
     for (const std::string& line : summary(job)) say(line);
   }
   if (a.stats.empty()) return {};
+  // A run that is repeated and finds all done keeps the report of the one that did it.
+  std::error_code error;
+  if (job.frames.empty() && std::filesystem::exists(a.stats, error)) return {};
   const SignalScope hold(OnSignal::hold);
-  return io::write_text(a.stats, stats_text(job), a.write.overwrite);
+  return io::write_text(a.stats, stats_text(job), a.write.overwrite || a.skip_existing);
 }
 
 Status run(const RenderArguments& a) {

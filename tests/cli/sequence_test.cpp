@@ -195,6 +195,8 @@ TEST_F(Sequence, SkippingLeavesWhatExistsAndRendersWhatIsMissing) {
   ASSERT_EQ(render("1-3", "out.####.exr", second).code, 0);
   EXPECT_EQ(Json::parse(read("second.json"))["skipped_frames"], 3);
   EXPECT_TRUE(Json::parse(read("second.json"))["frames"].empty());
+  ASSERT_EQ(render("1-3", "out.####.exr", first).code, 0) << "a command may be repeated";
+  EXPECT_EQ(Json::parse(read("first.json")), stats) << "nothing was done, so nothing is reported";
 }
 
 TEST_F(Sequence, AFrameWithoutADirectionIsThreeBeforeAnyFrame) {
