@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "render/heat_map/heat_map.h"
-#include "signals.h"
 
 namespace umbrix::app {
 namespace {
@@ -36,9 +35,9 @@ bool is_png(const std::string& path) {
 }
 
 /// Heat maps are not photographs: exposure and tone map would falsify their colours.
-io::WriteOptions heat_map_options(const RenderArguments& a) {
+io::WriteOptions heat_map_options(bool overwrite) {
   io::WriteOptions options;
-  options.overwrite = a.write.overwrite;
+  options.overwrite = overwrite;
   return options;
 }
 
@@ -61,28 +60,29 @@ std::vector<std::string> rendered_aovs(const RenderArguments& a) {
   return aovs;
 }
 
-std::vector<std::string> heat_map_files(const RenderArguments& a) {
+std::vector<std::string> heat_map_files(const std::vector<HeatMapFile>& maps) {
   std::vector<std::string> paths;
-  for (const HeatMapFile& map : a.heat_maps) paths.push_back(map.path);
+  for (const HeatMapFile& map : maps) paths.push_back(map.path);
   return paths;
 }
 
-Status check_heat_maps(const RenderArguments& a) {
-  for (const HeatMapFile& map : a.heat_maps) {
+Status check_heat_maps(const RenderArguments& a, const Frame& frame) {
+  const io::WriteOptions options = heat_map_options(a.write.overwrite || a.skip_existing);
+  for (const HeatMapFile& map : frame.heat_maps) {
     if (!is_png(map.path)) return {StatusCode::output_failed, fmt::format("{}: a heat map is a .png", map.path)};
-    if (Status status = io::check_output(map.path, heat_map_options(a)); !status) return status;
+    if (Status status = io::check_output(map.path, options); !status) return status;
   }
   return {};
 }
 
-Status write_heat_maps(const RenderJob& job) {
-  for (const HeatMapFile& map : job.arguments.heat_maps) {
-    if (interrupted()) return {StatusCode::cancelled, "interrupted"};
+Status write_heat_maps(const RenderArguments& a, const Frame& frame, const io::Image& image,
+                       const render::RenderStats& stats) {
+  for (const HeatMapFile& map : frame.heat_maps) {
     io::Image picture;
-    if (Status status = render::make_heat_map(map.aov, job.image, job.stats, picture); !status) return status;
-    picture.metadata = job.image.metadata;
+    if (Status status = render::make_heat_map(map.aov, image, stats, picture); !status) return status;
+    picture.metadata = image.metadata;
     picture.metadata.emplace_back("umbrix:heat_map", map.aov);
-    if (Status status = io::write_image(map.path, picture, heat_map_options(job.arguments)); !status) return status;
+    if (Status status = io::write_image(map.path, picture, heat_map_options(a.write.overwrite)); !status) return status;
   }
   return {};
 }
