@@ -31,6 +31,18 @@ Json work(const RayCounts& counts) {
           {"far_rays", counts.far_rays}};
 }
 
+Json routes(const render::RouteCounts<std::uint64_t>& rays) {
+  Json counts;
+  for (std::size_t i = 0; i < render::kRayRoutes; ++i) counts[render::kRouteNames[i]] = rays[i];
+  return counts;
+}
+
+/// The images, then the heat maps.
+Json output_files(std::vector<std::string> images, const std::vector<HeatMapFile>& maps) {
+  for (const HeatMapFile& map : maps) images.push_back(map.path);
+  return images;
+}
+
 Json shadow_rays(const render::LightStats& light) {
   return {{"rays", light.rays()},
           {"occluded", work(light.counts.occluded)},
@@ -40,6 +52,7 @@ Json shadow_rays(const render::LightStats& light) {
             {"beyond_range", light.skipped_range},
             {"outside_cone", light.skipped_cone},
             {"no_power", light.skipped_no_power}}},
+          {"routes", routes(light.routes)},
           {"thread_seconds", light.seconds},
           {"mrays_per_second_per_thread", ratio(mega(light.rays()), light.seconds)}};
 }
@@ -93,7 +106,7 @@ Json frames(const RenderJob& job) {
     const Frame& frame = job.frames[report.frame];
     Json entry = {{"frame", frame.number.value_or(0)},
                   {"time", frame.seconds},
-                  {"outputs", frame.outputs},
+                  {"outputs", output_files(frame.outputs, frame.heat_maps)},
                   {"seconds", {{"render", report.seconds.render}, {"write", report.seconds.write}}}};
     add_rays(job, report.stats, report.seconds.render, entry);
     list.push_back(entry);
@@ -134,7 +147,7 @@ std::string stats_text(const RenderJob& job) {
   const RenderArguments& a = job.arguments;
   Json stats = {{"umbrix", version_string()},
                 {"scene", job.scene.path},
-                {"outputs", a.outputs},
+                {"outputs", output_files(a.outputs, a.heat_maps)},
                 {"width", job.size.width},
                 {"height", job.size.height},
                 {"samples_per_pixel", a.samples},

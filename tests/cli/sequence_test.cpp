@@ -219,7 +219,7 @@ TEST_F(Sequence, StatsOfFramesAddUp) {
   EXPECT_EQ(stats["frames"][1]["frame"], 5);
   EXPECT_EQ(stats["frames"][1]["time"], 2.5);
   EXPECT_EQ(stats["frames"][1]["outputs"], Json({path("out.0005.exr")}));
-  int camera = 0, shadow = 0, lamp = 0, hits = 0;
+  int camera = 0, shadow = 0, lamp = 0, hits = 0, routes = 0;
   double seconds = 0;
   for (const Json& frame : stats["frames"]) {
     EXPECT_EQ(frame["camera"]["rays"], 32 * 16);
@@ -227,12 +227,14 @@ TEST_F(Sequence, StatsOfFramesAddUp) {
     hits += frame["camera"]["hits"].get<int>();
     shadow += frame["shadow"]["rays"].get<int>();
     lamp += frame["lights"][0]["rays"].get<int>();
+    routes += frame["shadow"]["routes"]["other"].get<int>();
     seconds += frame["seconds"]["render"].get<double>();
   }
   EXPECT_EQ(stats["camera"]["rays"], camera);
   EXPECT_EQ(stats["camera"]["hits"], hits);
   EXPECT_EQ(stats["shadow"]["rays"], shadow);
   EXPECT_EQ(stats["lights"][0]["rays"], lamp);
+  EXPECT_EQ(stats["shadow"]["routes"]["other"], routes);
   EXPECT_NEAR(stats["seconds"]["render"].get<double>(), seconds, 1e-9);
   EXPECT_EQ(stats["build"]["triangles"], 4);
 }
@@ -250,24 +252,25 @@ TEST_F(Sequence, ProgressIsOneLineAFrame) {
 }
 
 TEST_F(Sequence, AnInterruptionLeavesWholeFramesAndTheRestCanFollow) {
-  const pid_t process =
-      start({"render", path("scene.gltf"), "--setup", path("orbit.json"), "-q", "-o", path("out.######.exr"), "-o",
-             path("out.######.png"), "--size", "32x16", "--frames", "1-90000"});
+  const pid_t process = start({"render", path("scene.gltf"), "--setup", path("orbit.json"), "-q", "-o",
+                               path("out.######.exr"), "-o", path("out.######.png"), "--heat-map",
+                               "depth=" + path("out.######.depth.png"), "--size", "32x16", "--frames", "1-90000"});
   while (!exists("out.000003.exr")) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   kill(process, SIGTERM);
   EXPECT_EQ(wait(process).code, 143);
   const std::vector<std::string> left = files();
-  ASSERT_LT(left.size(), 180000u);
-  std::size_t exr = 0, png = 0, other = 0;
+  ASSERT_LT(left.size(), 270000u);
+  std::size_t exr = 0, png = 0, heat = 0, other = 0;
   for (const std::string& name : left) {
     io::Image image;
     if (name.rfind("out.", 0) != 0) continue;
     EXPECT_TRUE(io::read_image(path(name), image).ok()) << name;
-    ++(contains(name, ".exr") ? exr : contains(name, ".png") ? png : other);
+    ++(contains(name, ".exr") ? exr : contains(name, ".depth.png") ? heat : contains(name, ".png") ? png : other);
     EXPECT_FALSE(contains(name, ".tmp")) << name;
   }
   EXPECT_GE(exr, 3u);
   EXPECT_EQ(exr, png);
+  EXPECT_EQ(exr, heat);
   EXPECT_EQ(other, 0u);
 }
 
