@@ -12,14 +12,17 @@
 namespace umbrix::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 Status check_pattern(const std::string& path, std::size_t frames) {
-  const auto wrong = [&](const char* reason) {
+  const auto wrong = [&](const std::string& reason) {
     return Status(StatusCode::invalid_argument, fmt::format("{}: {}", path, reason));
   };
   const std::size_t places = frame_places(path);
   if (places > 0 && frames == 0) return wrong("has a place for a frame number; --frames tells which");
   if (places > 1) return wrong("has more than one place for the frame number");
-  if (places == 0 && frames > 1) return wrong("needs a place for the frame number, such as name.####.exr");
+  if (places == 0 && frames > 1)
+    return wrong("needs a place for the frame number, such as name.####" + fs::path(path).extension().string());
   return {};
 }
 
@@ -53,7 +56,7 @@ Status plan_frames(const RenderArguments& a, std::vector<Frame>& out) {
 void skip_existing(RenderJob& job) {
   const auto exists = [](const std::string& path) {
     std::error_code error;
-    return std::filesystem::exists(path, error);
+    return fs::exists(path, error);
   };
   const auto drawn = [&](const HeatMapFile& map) { return exists(map.path); };
   for (Frame& frame : job.frames) {

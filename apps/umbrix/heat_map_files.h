@@ -6,8 +6,8 @@
 
 namespace umbrix::app {
 
-/// Adds --heat-map, which fills `arguments.heat_maps` with known AOVs.
-void add_heat_map_option(CLI::App& command, RenderArguments& arguments);
+/// Adds --heat-map, which fills `arguments.heat_maps` with known AOVs, and --heat-max.
+void add_heat_map_options(CLI::App& command, RenderArguments& arguments);
 
 /// The AOVs to render: those asked for and, after them, those that heat maps show.
 std::vector<std::string> rendered_aovs(const RenderArguments& arguments);

@@ -174,7 +174,7 @@ void add_render_options(CLI::App& command, RenderArguments& a) {
   command.add_option("--camera", a.camera, "The scene's camera, by name or number from 0 [0]")->type_name("NAME|N");
   add_sequence_options(command, a);
   add_image_options(command, a);
-  add_heat_map_option(command, a);
+  add_heat_map_options(command, a);
   add_tracing_options(command, a);
   CLI::Option* overwrite = command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
   command.add_flag("--skip-existing", a.skip_existing, "Leave images that exist, render those that are missing")

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "progress.h"
+#include "render/heat_map/heat_map.h"
 #include "render/render.h"
 #include "umbrix/io/image_file.h"
 #include "umbrix/scene.h"
@@ -20,7 +21,8 @@ struct Size {
 
 /// An AOV to be drawn, and the PNG it goes to.
 struct HeatMapFile {
-  std::string aov, path;
+  render::HeatMapContent content;
+  std::string path;
 };
 
 /// The command line of `umbrix render`, checked for itself: numbers in range, names known.
