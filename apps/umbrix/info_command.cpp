@@ -52,9 +52,11 @@ Json cameras(const io::SceneFile& scene) {
   for (const io::Camera& camera : scene.cameras) {
     const bool perspective = camera.type == io::CameraType::perspective;
     const io::Transform& m = camera.to_world;
-    list.push_back({{"name", camera.name},
-                    {"type", perspective ? "perspective" : "orthographic"},
-                    {"position", {m[0][3], m[1][3], m[2][3]}}});
+    Json entry = {{"name", camera.name},
+                  {"type", perspective ? "perspective" : "orthographic"},
+                  {"position", {m[0][3], m[1][3], m[2][3]}}};
+    if (camera.motion) entry["moves_seconds"] = io::motion_span(camera);
+    list.push_back(entry);
   }
   return list;
 }

@@ -27,7 +27,7 @@ fs::path folder_of(const std::string& path) {
 Status check_stats_file(const RenderArguments& a) {
   std::error_code error;
   if (fs::is_directory(a.stats, error)) return failed(a.stats, "is a folder");
-  if (fs::exists(a.stats, error) && !a.write.overwrite)
+  if (fs::exists(a.stats, error) && !a.write.overwrite && !a.skip_existing)
     return failed(a.stats, "exists (use --overwrite to replace it)");
   if (!fs::is_directory(folder_of(a.stats), error)) return failed(a.stats, "its folder does not exist");
   if (access(folder_of(a.stats).c_str(), W_OK) != 0) return failed(a.stats, "its folder cannot be written to");
@@ -39,34 +39,47 @@ std::vector<std::string> report_files(const RenderArguments& a) {
   return {a.stats};
 }
 
+/// Refuses a file that is named twice, by whatever pattern, or is an input.
+Status check_names(const RenderArguments& a, const std::vector<std::string>& paths, std::set<std::string>& seen) {
+  std::error_code error;
+  for (const std::string& path : paths) {
+    if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
+      return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
+    }
+    for (const std::string& input : {a.scene, a.setup}) {
+      if (fs::equivalent(path, input, error)) return failed(path, "is an input of this command");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
-Status check_outputs(const RenderArguments& a) {
+Status check_outputs(const RenderArguments& a, const std::vector<Frame>& frames) {
   std::set<std::string> seen;
-  std::error_code error;
-  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a), report_files(a)}) {
-    for (const std::string& path : list) {
-      if (!seen.insert(fs::absolute(path, error).lexically_normal().string()).second) {
-        return {StatusCode::invalid_argument, fmt::format("{}: named twice as an output", path)};
-      }
-      for (const std::string& input : {a.scene, a.setup}) {
-        if (fs::equivalent(path, input, error)) return failed(path, "is an input of this command");
-      }
+  if (Status status = check_names(a, report_files(a), seen); !status) return status;
+  for (const Frame& frame : frames) {
+    for (const std::vector<std::string>& list : {frame.outputs, heat_map_files(frame.heat_maps)}) {
+      if (Status status = check_names(a, list, seen); !status) return status;
     }
   }
   const auto is_exr = [](const std::string& path) { return fs::path(path).extension() == ".exr"; };
   if (!a.aovs.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
     return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};
   }
-  for (const std::string& path : a.outputs) {
-    if (Status status = io::check_output(path, a.write); !status) return status;
+  io::WriteOptions options = a.write;
+  options.overwrite = a.write.overwrite || a.skip_existing;
+  for (const Frame& frame : frames) {
+    for (const std::string& path : frame.outputs) {
+      if (Status status = io::check_output(path, options); !status) return status;
+    }
+    if (Status status = check_heat_maps(a, frame); !status) return status;
   }
-  if (Status status = check_heat_maps(a); !status) return status;
   return report_files(a).empty() ? Status() : check_stats_file(a);
 }
 
 Status create_output_folders(const RenderArguments& a) {
-  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a), report_files(a)}) {
+  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a.heat_maps), report_files(a)}) {
     for (const std::string& path : list) {
       std::error_code error;
       fs::create_directories(folder_of(path), error);

@@ -29,21 +29,30 @@ ProgressStyle resolve(ProgressStyle style) {
 
 }  // namespace
 
-Progress::Progress(ProgressStyle style) : style_(resolve(style)), start_(Clock::now()), drawn_(start_) {}
+Progress::Progress(ProgressStyle style, std::size_t frames)
+    : style_(resolve(style)), frames_(frames), start_(Clock::now()), drawn_(start_) {}
 
 void Progress::update(std::size_t done, std::size_t total) {
-  const double share = static_cast<double>(done) / static_cast<double>(total);
-  const double seconds_left = seconds_since(start_) * (1 - share) / share;
-  if (style_ == ProgressStyle::bar && (done == total || seconds_since(drawn_) > 0.1)) {
+  const double of_frame = static_cast<double>(done) / static_cast<double>(total);
+  const double share = (static_cast<double>(frames_done_) + of_frame) / static_cast<double>(frames_);
+  if (style_ == ProgressStyle::bar && (share == 1 || seconds_since(drawn_) > 0.1)) {
     drawn_ = Clock::now();
-    draw_bar(share, seconds_left);
+    draw_bar(share);
   }
-  // One line for each tenth: few enough for a log, often enough for a farm.
+  // One line for each tenth, or for each frame: few enough for a log, often enough for a farm.
   const int tenths = static_cast<int>(share * 10);
-  if (style_ == ProgressStyle::lines && tenths > tenths_) {
+  if (style_ == ProgressStyle::lines && frames_ == 1 && tenths > tenths_) {
     tenths_ = tenths;
-    say(fmt::format("umbrix: {:3}% of {} tiles, {} left", tenths * 10, total, clock_text(seconds_left)));
+    say(fmt::format("umbrix: {:3}% of {} tiles, {} left", tenths * 10, total, clock_text(seconds_left(share))));
   }
+}
+
+void Progress::frame_done(std::optional<int> number) {
+  ++frames_done_;
+  if (style_ != ProgressStyle::lines || frames_ == 1 || !number) return;
+  const double share = static_cast<double>(frames_done_) / static_cast<double>(frames_);
+  say(fmt::format("umbrix: frame {} done, {} of {}, {} left", *number, frames_done_, frames_,
+                  clock_text(seconds_left(share))));
 }
 
 void Progress::finish() {
@@ -51,11 +60,16 @@ void Progress::finish() {
   bar_shown_ = false;
 }
 
-void Progress::draw_bar(double share, double seconds_left) {
+double Progress::seconds_left(double share) const { return seconds_since(start_) * (1 - share) / share; }
+
+void Progress::draw_bar(double share) {
   constexpr int kWidth = 40;
   const auto filled = static_cast<std::size_t>(share * kWidth);
   const std::string bar = std::string(filled, '#') + std::string(kWidth - filled, '.');
-  std::fputs(fmt::format("\r[{}] {:3.0f}% {} left ", bar, share * 100, clock_text(seconds_left)).c_str(), stderr);
+  const std::string frame = frames_ > 1 ? fmt::format("frame {} of {}, ", frames_done_ + 1, frames_) : "";
+  std::fputs(
+      fmt::format("\r[{}] {:3.0f}% {}{} left ", bar, share * 100, frame, clock_text(seconds_left(share))).c_str(),
+      stderr);
   std::fflush(stderr);
   bar_shown_ = true;
 }

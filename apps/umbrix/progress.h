@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
 namespace umbrix::app {
 
@@ -16,18 +17,25 @@ enum class ProgressStyle {
 /// Shows on stderr how far rendering is and how long it will take.
 class Progress {
  public:
-  explicit Progress(ProgressStyle style);
+  /// Of a run of `frames` frames.
+  Progress(ProgressStyle style, std::size_t frames);
 
-  /// `done` of `total` tiles are complete.
+  /// `done` of `total` tiles of a frame are complete.
   void update(std::size_t done, std::size_t total);
+
+  /// A frame is complete, its files included.
+  void frame_done(std::optional<int> number);
 
   /// Leaves the bar's line, if there is one.
   void finish();
 
  private:
-  void draw_bar(double share, double seconds_left);
+  double seconds_left(double share) const;
+  void draw_bar(double share);
 
   ProgressStyle style_;
+  std::size_t frames_;
+  std::size_t frames_done_ = 0;
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point drawn_;
   int tenths_ = 0;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "frame_list.h"
 #include "heat_map_files.h"
 #include "strict_number.h"
 
@@ -71,6 +72,22 @@ void choose_aovs(RenderArguments& arguments, const std::vector<std::string>& nam
     reject(fmt::format("--aov: '{}' is not one of {}", name, list));
   }
   arguments.aovs = names;
+}
+
+void choose_frames(RenderArguments& arguments, const std::string& list) {
+  if (Status status = parse_frames(list, arguments.frames); !status) reject("--frames: " + status.message());
+}
+
+void add_sequence_options(CLI::App& command, RenderArguments& a) {
+  CLI::Option* frames = command
+                            .add_option_function<std::string>(
+                                "--frames", [&a](const std::string& list) { choose_frames(a, list); },
+                                "Frames of a camera that moves, such as 1-3,5,7-20:2; -o then needs #### or %04d")
+                            ->type_name("LIST");
+  add_real(
+      command, "--fps", 0.001, 100000, [&a](double x) { a.fps = x; },
+      "Frames a second: frame F shows a glTF animation at F/X seconds [24]")
+      ->needs(frames);
 }
 
 void add_image_options(CLI::App& command, RenderArguments& a) {
@@ -155,10 +172,13 @@ void add_render_options(CLI::App& command, RenderArguments& a) {
       ->type_name("FILE");
   command.add_option("--setup", a.setup, "Camera and lights from a JSON file")->type_name("FILE");
   command.add_option("--camera", a.camera, "The scene's camera, by name or number from 0 [0]")->type_name("NAME|N");
+  add_sequence_options(command, a);
   add_image_options(command, a);
-  add_heat_map_option(command, a);
+  add_heat_map_options(command, a);
   add_tracing_options(command, a);
-  command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
+  CLI::Option* overwrite = command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
+  command.add_flag("--skip-existing", a.skip_existing, "Leave images that exist, render those that are missing")
+      ->excludes(overwrite);
   command.add_flag("--create-dir", a.create_folders, "Make missing folders of the outputs");
   command.add_flag("-n,--dry-run", a.dry_run, "Check everything and say what would be rendered");
   add_talking_options(command, a);

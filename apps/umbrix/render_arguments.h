@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "progress.h"
+#include "render/heat_map/heat_map.h"
 #include "render/render.h"
 #include "umbrix/io/image_file.h"
 #include "umbrix/scene.h"
@@ -20,27 +21,31 @@ struct Size {
 
 /// An AOV to be drawn, and the PNG it goes to.
 struct HeatMapFile {
-  std::string aov, path;
+  render::HeatMapContent content;
+  std::string path;
 };
 
 /// The command line of `umbrix render`, checked for itself: numbers in range, names known.
 struct RenderArguments {
   std::string scene;
-  std::vector<std::string> outputs;
-  std::string setup;         ///< empty: none
-  std::string camera;        ///< name or number; empty: the first, or the setup's
+  std::vector<std::string> outputs;  ///< for frames, with a place for their number
+  std::string setup;                 ///< empty: none
+  std::string camera;                ///< name or number; empty: the first, or the setup's
+  std::vector<int> frames;           ///< empty: a still
+  double fps = 24;
   std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;
   std::uint32_t samples = 1;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
-  std::vector<HeatMapFile> heat_maps;
-  io::WriteOptions write;  ///< exposure, tone map, pixel type, overwrite
+  std::vector<HeatMapFile> heat_maps;  ///< for frames, with a place for their number
+  io::WriteOptions write;              ///< exposure, tone map, pixel type, overwrite
   KernelId kernel;
   std::string kernel_name = "auto";
   std::string simd_target;  ///< empty: the best
   BuildQuality build_quality = BuildQuality::high;
   int threads = 0;  ///< 0: all that are allowed
+  bool skip_existing = false;
   bool create_folders = false;
   bool dry_run = false;
   bool quiet = false;

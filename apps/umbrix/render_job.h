@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "render/render.h"
 #include "render_arguments.h"
 
@@ -11,18 +16,37 @@ struct PhaseSeconds {
   double load = 0, build = 0, render = 0, write = 0;
 };
 
+/// One picture, and the files it goes to.
+struct Frame {
+  std::optional<int> number;  ///< none: a still
+  double seconds = 0;         ///< since frame 0
+  io::Camera camera;
+  std::vector<std::string> outputs;  ///< images
+  std::vector<HeatMapFile> heat_maps;
+};
+
+/// What became of one frame.
+struct FrameReport {
+  std::size_t frame = 0;  ///< in RenderJob::frames
+  render::RenderStats stats;
+  PhaseSeconds seconds;  ///< render and write
+};
+
 /// One run of `umbrix render`, filled from phase to phase.
 struct RenderJob {
   explicit RenderJob(const RenderArguments& the_arguments) : arguments(the_arguments) {}
 
   const RenderArguments& arguments;
   io::SceneFile scene;
-  render::View view;
-  Size size;  ///< of the frame
+  render::View view;          ///< the camera at rest
+  std::string camera_file;    ///< where the camera is from
+  std::vector<Frame> frames;  ///< to render: what is asked for, but what is there already
+  std::size_t skipped = 0;    ///< frames that are there already
+  Size size;                  ///< of a frame
   int threads = 1;
   render::World world;
-  io::Image image;
-  render::RenderStats stats;
+  std::vector<FrameReport> reports;  ///< kept for --stats only
+  render::RenderStats stats;         ///< of all frames
   PhaseSeconds seconds;
 };
 

@@ -31,6 +31,18 @@ Json work(const RayCounts& counts) {
           {"far_rays", counts.far_rays}};
 }
 
+Json routes(const render::RouteCounts<std::uint64_t>& rays) {
+  Json counts;
+  for (std::size_t i = 0; i < render::kRayRoutes; ++i) counts[render::kRouteNames[i]] = rays[i];
+  return counts;
+}
+
+/// The images, then the heat maps.
+Json output_files(std::vector<std::string> images, const std::vector<HeatMapFile>& maps) {
+  for (const HeatMapFile& map : maps) images.push_back(map.path);
+  return images;
+}
+
 Json shadow_rays(const render::LightStats& light) {
   return {{"rays", light.rays()},
           {"occluded", work(light.counts.occluded)},
@@ -40,6 +52,7 @@ Json shadow_rays(const render::LightStats& light) {
             {"beyond_range", light.skipped_range},
             {"outside_cone", light.skipped_cone},
             {"no_power", light.skipped_no_power}}},
+          {"routes", routes(light.routes)},
           {"thread_seconds", light.seconds},
           {"mrays_per_second_per_thread", ratio(mega(light.rays()), light.seconds)}};
 }
@@ -65,59 +78,97 @@ Json build(const BuildStats& b) {
           {"seconds", b.seconds}};
 }
 
+Json camera_rays(const render::RenderStats& stats) {
+  return {{"rays", stats.camera_rays},
+          {"hits", stats.camera_hits},
+          {"thread_seconds", stats.camera_seconds},
+          {"mrays_per_second_per_thread", ratio(mega(stats.camera_rays), stats.camera_seconds)}};
+}
+
+/// "camera", "shadow", "lights" and "mrays_per_second", of a frame or of all.
+void add_rays(const RenderJob& job, const render::RenderStats& stats, double seconds, Json& out) {
+  const render::LightStats shadow = stats.shadow();
+  Json lights = Json::array();
+  for (std::size_t i = 0; i < job.view.lights.size(); ++i) {
+    Json light = {{"name", job.view.lights[i].name}, {"type", io::light_type_info(job.view.lights[i].type).name}};
+    light.update(shadow_rays(stats.lights[i]));
+    lights.push_back(light);
+  }
+  out["camera"] = camera_rays(stats);
+  out["shadow"] = shadow_rays(shadow);
+  out["lights"] = lights;
+  out["mrays_per_second"] = ratio(mega(stats.camera_rays + shadow.rays()), seconds);
+}
+
+Json frames(const RenderJob& job) {
+  Json list = Json::array();
+  for (const FrameReport& report : job.reports) {
+    const Frame& frame = job.frames[report.frame];
+    Json entry = {{"frame", frame.number.value_or(0)},
+                  {"time", frame.seconds},
+                  {"outputs", output_files(frame.outputs, frame.heat_maps)},
+                  {"seconds", {{"render", report.seconds.render}, {"write", report.seconds.write}}}};
+    add_rays(job, report.stats, report.seconds.render, entry);
+    list.push_back(entry);
+  }
+  return list;
+}
+
+std::string frames_line(const RenderJob& job) {
+  const std::size_t count = job.frames.size();
+  return fmt::format("frames  {} rendered, {} skipped, {:.2f} s each", count, job.skipped,
+                     ratio(job.seconds.render + job.seconds.write, static_cast<double>(count)));
+}
+
 }  // namespace
 
 std::vector<std::string> summary(const RenderJob& job) {
+  if (job.frames.empty()) return {"umbrix: nothing to render, all images exist"};
   const BuildStats& b = job.world.scene.build_stats();
   const render::LightStats shadow = job.stats.shadow();
   const std::uint64_t skipped =
       shadow.skipped_behind + shadow.skipped_range + shadow.skipped_cone + shadow.skipped_no_power;
   const double share_occluded = 100 * ratio(static_cast<double>(shadow.occluded), static_cast<double>(shadow.rays()));
-  return {fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, job.world.meshes.size(),
-                      job.view.lights.size()),
-          fmt::format("tree    {} nodes, depth {}, {:.1f} MB", b.nodes, b.depth, mega(b.bytes)),
-          fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(job.stats.camera_rays),
-                      ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)),
-          fmt::format("shadow  {:.2f} M rays, {:.0f} % occluded, {:.2f} M rays/s a thread, {:.2f} M skipped",
-                      mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds), mega(skipped)),
-          fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
-                      job.seconds.load, job.seconds.build, job.seconds.render, job.threads, job.seconds.write)};
+  std::vector<std::string> lines = {
+      fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, job.world.meshes.size(),
+                  job.view.lights.size()),
+      fmt::format("tree    {} nodes, depth {}, {:.1f} MB", b.nodes, b.depth, mega(b.bytes)),
+      fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(job.stats.camera_rays),
+                  ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)),
+      fmt::format("shadow  {:.2f} M rays, {:.0f} % occluded, {:.2f} M rays/s a thread, {:.2f} M skipped",
+                  mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds), mega(skipped)),
+      fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
+                  job.seconds.load, job.seconds.build, job.seconds.render, job.threads, job.seconds.write)};
+  if (!job.arguments.frames.empty()) lines.push_back(frames_line(job));
+  return lines;
 }
 
 std::string stats_text(const RenderJob& job) {
-  const render::LightStats shadow = job.stats.shadow();
-  Json lights = Json::array();
-  for (std::size_t i = 0; i < job.view.lights.size(); ++i) {
-    Json light = {{"name", job.view.lights[i].name}, {"type", io::light_type_info(job.view.lights[i].type).name}};
-    light.update(shadow_rays(job.stats.lights[i]));
-    lights.push_back(light);
+  const RenderArguments& a = job.arguments;
+  Json stats = {{"umbrix", version_string()},
+                {"scene", job.scene.path},
+                {"outputs", output_files(a.outputs, a.heat_maps)},
+                {"width", job.size.width},
+                {"height", job.size.height},
+                {"samples_per_pixel", a.samples},
+                {"seed", a.seed},
+                {"triangles", job.world.scene.build_stats().triangles},
+                {"kernel", a.kernel_name},
+                {"simd_target", simd_target(a)},
+                {"threads", job.threads},
+                {"seconds",
+                 {{"load", job.seconds.load},
+                  {"build", job.seconds.build},
+                  {"render", job.seconds.render},
+                  {"write", job.seconds.write}}},
+                {"build", build(job.world.scene.build_stats())}};
+  add_rays(job, job.stats, job.seconds.render, stats);
+  stats["notes"] = job.world.notes;
+  if (!a.frames.empty()) {
+    stats["fps"] = a.fps;
+    stats["skipped_frames"] = job.skipped;
+    stats["frames"] = frames(job);
   }
-  const Json stats = {{"umbrix", version_string()},
-                      {"scene", job.scene.path},
-                      {"outputs", job.arguments.outputs},
-                      {"width", job.size.width},
-                      {"height", job.size.height},
-                      {"samples_per_pixel", job.arguments.samples},
-                      {"seed", job.arguments.seed},
-                      {"triangles", job.world.scene.build_stats().triangles},
-                      {"kernel", job.arguments.kernel_name},
-                      {"simd_target", simd_target(job.arguments)},
-                      {"threads", job.threads},
-                      {"seconds",
-                       {{"load", job.seconds.load},
-                        {"build", job.seconds.build},
-                        {"render", job.seconds.render},
-                        {"write", job.seconds.write}}},
-                      {"build", build(job.world.scene.build_stats())},
-                      {"camera",
-                       {{"rays", job.stats.camera_rays},
-                        {"hits", job.stats.camera_hits},
-                        {"thread_seconds", job.stats.camera_seconds},
-                        {"mrays_per_second_per_thread", ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)}}},
-                      {"shadow", shadow_rays(shadow)},
-                      {"lights", lights},
-                      {"mrays_per_second", ratio(mega(job.stats.camera_rays + shadow.rays()), job.seconds.render)},
-                      {"notes", job.world.notes}};
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
   return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -29,8 +29,9 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
 }  // namespace
 
 Status choose_view(const io::SceneFile& scene, const std::string& setup_path, const std::string& camera,
-                   render::View& view) {
+                   render::View& view, std::string& camera_file) {
   io::Setup setup;
+  camera_file = scene.path;
   if (!setup_path.empty()) {
     if (Status status = io::load_setup(setup_path, scene, setup); !status) return status;
   }
@@ -38,6 +39,7 @@ Status choose_view(const io::SceneFile& scene, const std::string& setup_path, co
     if (Status status = find_camera(scene, camera, view.camera); !status) return status;
   } else if (setup.camera) {
     view.camera = *setup.camera;
+    camera_file = setup_path;
   } else {
     view.camera = scene.cameras.empty() ? io::framing_camera(scene) : scene.cameras.front();
   }

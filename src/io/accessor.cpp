@@ -88,12 +88,16 @@ bool is_index_type(int type) {
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-// May an attribute be stored so? The small integers beyond core glTF need KHR_mesh_quantization.
+bool is_attribute(AccessorUse use) { return use != AccessorUse::key && use != AccessorUse::rotation; }
+
+// May a value be stored so? The small integers beyond core glTF need KHR_mesh_quantization.
 bool allowed(AccessorUse use, int type, bool normalized, bool quantized) {
   const bool is_signed = type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
   const bool is_unsigned =
       type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
   if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return !normalized;
+  if (use == AccessorUse::key) return false;
+  if (use == AccessorUse::rotation) return (is_signed || is_unsigned) && normalized;
   if (use == AccessorUse::normal) return quantized && is_signed && normalized;
   if (use == AccessorUse::texcoord && is_unsigned && normalized) return true;
   return quantized && (is_signed || is_unsigned);
@@ -160,12 +164,15 @@ template <std::size_t N>
 std::vector<std::array<float, N>> AccessorReader::decode(int number, AccessorUse use, int type) {
   const tinygltf::Accessor& accessor = accessor_at(number);
   const std::string label = fmt::format("accessors[{}]", number);
-  if (accessor.type != type) bad_input("{}: must be of type VEC{}", label, N);
+  if (accessor.type != type) {
+    bad_input("{}: must be of type {}", label, N == 1 ? std::string("SCALAR") : fmt::format("VEC{}", N));
+  }
   const Encoding encoding{accessor.componentType, component_bytes(accessor.componentType, label), N,
                           accessor.normalized};
   if (!allowed(use, accessor.componentType, accessor.normalized, quantized_)) {
-    bad_input("{}: componentType {}{} is not allowed for this attribute{}", label, accessor.componentType,
-              accessor.normalized ? " normalized" : "", quantized_ ? "" : " without KHR_mesh_quantization");
+    bad_input("{}: componentType {}{} is not allowed for this {}{}", label, accessor.componentType,
+              accessor.normalized ? " normalized" : "", is_attribute(use) ? "attribute" : "animation",
+              quantized_ || !is_attribute(use) ? "" : " without KHR_mesh_quantization");
   }
 
   const bool backed = accessor.bufferView >= 0;
@@ -223,6 +230,18 @@ std::vector<std::array<float, 3>> AccessorReader::vectors(int accessor, Accessor
 
 std::vector<std::array<float, 2>> AccessorReader::texcoords(int accessor) {
   return decode<2>(accessor, AccessorUse::texcoord, TINYGLTF_TYPE_VEC2);
+}
+
+std::vector<float> AccessorReader::times(int accessor) {
+  std::vector<float> out;
+  for (const std::array<float, 1>& time : decode<1>(accessor, AccessorUse::key, TINYGLTF_TYPE_SCALAR)) {
+    out.push_back(time[0]);
+  }
+  return out;
+}
+
+std::vector<std::array<float, 4>> AccessorReader::rotations(int accessor) {
+  return decode<4>(accessor, AccessorUse::rotation, TINYGLTF_TYPE_VEC4);
 }
 
 std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t vertex_count) {

@@ -10,9 +10,9 @@
 
 namespace umbrix::io::detail {
 
-/// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 section 3.7.2.1 and
+/// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 sections 3.7.2.1 and 3.11, and
 /// KHR_mesh_quantization).
-enum class AccessorUse { position, normal, texcoord };
+enum class AccessorUse { position, normal, texcoord, key, rotation };
 
 /// Turns accessors into plain arrays: the only place that touches a file's buffers. Strided, normalised, quantised and
 /// sparse forms are decoded; each read is checked against its view and each view against its buffer, before memory is
@@ -27,6 +27,10 @@ class AccessorReader {
 
   std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use);
   std::vector<std::array<float, 2>> texcoords(int accessor);
+
+  /// An animation's times, in seconds, and rotations (x, y, z, w), as they stand in the file.
+  std::vector<float> times(int accessor);
+  std::vector<std::array<float, 4>> rotations(int accessor);
 
   /// Vertex indices, each below `vertex_count`.
   std::vector<std::uint32_t> indices(int accessor, std::uint64_t vertex_count);

@@ -101,6 +101,13 @@ constexpr Rule kBodyRules[] = {
     {"nodes[].rotation", Kind::numbers, nullptr, 4},
     {"nodes[].scale", Kind::numbers, nullptr, 3},
     {"nodes[].extensions.KHR_lights_punctual.light", Kind::index, kLights, 0, true},
+    {"animations[].channels[].sampler", Kind::index, nullptr, 0, true},
+    {"animations[].channels[].target", Kind::object, nullptr, 0, true},
+    {"animations[].channels[].target.node", Kind::index, "nodes"},
+    {"animations[].channels[].target.path", Kind::string, nullptr, 0, true},
+    {"animations[].samplers[].input", Kind::index, "accessors", 0, true},
+    {"animations[].samplers[].output", Kind::index, "accessors", 0, true},
+    {"animations[].samplers[].interpolation", Kind::string},
     {"scenes[].nodes[]", Kind::index, "nodes"},
     {"scene", Kind::index, "scenes"},
 };

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The node hierarchy (glTF 2.0, section 3.5), walked with a stack of our own: files may nest deeper than the machine's.
 
-#include <algorithm>
-#include <cmath>
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-
+#include "io/gltf_animations.h"
 #include "io/gltf_convert.h"
 #include "io/load_error.h"
+#include "io/node_transform.h"
 
 namespace umbrix::io::detail {
 namespace {
@@ -19,71 +16,10 @@ std::string node_label(const tinygltf::Model& model, std::size_t node) {
   return label_of("nodes", node, model.nodes[node].name);
 }
 
-bool is_finite(const glm::dmat4& m) {
-  for (int c = 0; c < 4; ++c) {
-    for (int r = 0; r < 4; ++r) {
-      if (!std::isfinite(m[c][r])) return false;
-    }
-  }
-  return true;
-}
-
-glm::dmat4 from_matrix(const std::vector<double>& values, const std::string& label) {
-  glm::dmat4 m;
-  for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = values[static_cast<std::size_t>(i)];  // both are column-major
-  constexpr double kSlack = 1e-6;
-  if (std::abs(m[0][3]) > kSlack || std::abs(m[1][3]) > kSlack || std::abs(m[2][3]) > kSlack ||
-      std::abs(m[3][3] - 1) > kSlack) {
-    bad_input("{}: the matrix is not affine; its last row must be 0 0 0 1", label);
-  }
-  m[0][3] = m[1][3] = m[2][3] = 0;
-  m[3][3] = 1;
-  return m;
-}
-
-glm::dmat4 local_transform(const tinygltf::Node& node, const std::string& label) {
-  if (node.matrix.size() == 16) return from_matrix(node.matrix, label);
-  glm::dmat4 m(1);
-  if (node.rotation.size() == 4) {
-    const glm::dquat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-    const double length = glm::length(q);
-    if (!(length > 0) || !std::isfinite(length)) bad_input("{}: the rotation is not a quaternion of length 1", label);
-    m = glm::mat4_cast(q / length);
-  }
-  if (node.scale.size() == 3) {
-    for (int c = 0; c < 3; ++c) m[c] *= node.scale[static_cast<std::size_t>(c)];
-  }
-  if (node.translation.size() == 3) {
-    m[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
-  }
-  return m;
-}
-
-Transform to_transform(const glm::dmat4& m) {
-  Transform out;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c) out[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = m[c][r];
-  }
-  return out;
-}
-
-glm::dvec3 direction(const glm::dvec3& v, const char* what, const std::string& label) {
-  const double longest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(longest > 0)) bad_input("{}: the transform leaves the {} no direction", label, what);
-  return glm::normalize(v / longest);  // scaled first: squares of very large or small scales do not fit
-}
-
-// A camera's frame without its scale and shear: the view axis stays, "up" is made normal to it.
-Transform camera_frame(const glm::dmat4& m, const std::string& label) {
-  const glm::dvec3 z = direction(m[2], "camera", label);
-  const glm::dvec3 y = direction(m[1], "camera", label);
-  const glm::dvec3 x = direction(glm::cross(y, z), "camera", label);
-  return to_transform(glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), m[3]));
-}
-
 class NodeWalk {
  public:
-  explicit NodeWalk(Conversion& conversion) : c_(conversion), model_(conversion.model) {}
+  explicit NodeWalk(Conversion& conversion)
+      : c_(conversion), model_(conversion.model), animations_(conversion, parent_) {}
 
   void run() {
     if (model_.nodes.size() > c_.limits.nodes) {
@@ -100,6 +36,7 @@ class NodeWalk {
       stack_.pop_back();
       visit(next);
     }
+    animations_.note_ignored();
   }
 
  private:
@@ -168,15 +105,17 @@ class NodeWalk {
     if (next.depth > c_.limits.node_depth) over_limit("{}: nested deeper than {} nodes", label, c_.limits.node_depth);
     const glm::dmat4 to_world = next.parent_to_world * local_transform(node, label);
     if (!is_finite(to_world)) bad_input("{}: the transform is not finite", label);
-    if (node.mesh >= 0) place_mesh(node, to_world, label);
-    if (node.camera >= 0) place_camera(node, to_world, label);
-    place_light(node, to_world, label);
+    if (node.mesh >= 0) place_mesh(next.node, to_world, label);
+    if (node.camera >= 0) place_camera(next.node, to_world, label);
+    place_light(next.node, to_world, label);
     for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
       stack_.push_back({static_cast<std::size_t>(*child), to_world, next.depth + 1});
     }
   }
 
-  void place_mesh(const tinygltf::Node& node, const glm::dmat4& to_world, const std::string& label) {
+  void place_mesh(std::size_t number, const glm::dmat4& to_world, const std::string& label) {
+    const tinygltf::Node& node = model_.nodes[number];
+    animations_.mesh_at(number);
     const auto mesh = static_cast<std::size_t>(node.mesh);
     const std::uint64_t most = c_.limits.nodes * kInstancesPerNodeLimit;
     for (std::uint32_t m = c_.first_mesh[mesh]; m < c_.first_mesh[mesh + 1]; ++m) {
@@ -189,22 +128,26 @@ class NodeWalk {
     }
   }
 
-  void place_camera(const tinygltf::Node& node, const glm::dmat4& to_world, const std::string& label) {
-    const auto number = static_cast<std::size_t>(node.camera);
-    const tinygltf::Camera& in = model_.cameras[number];
-    Camera camera = convert_camera(in, label_of("cameras", number, in.name));
+  void place_camera(std::size_t number, const glm::dmat4& to_world, const std::string& label) {
+    const tinygltf::Node& node = model_.nodes[number];
+    const auto reference = static_cast<std::size_t>(node.camera);
+    const tinygltf::Camera& in = model_.cameras[reference];
+    Camera camera = convert_camera(in, label_of("cameras", reference, in.name));
     if (camera.name.empty()) camera.name = node.name;
     camera.to_world = camera_frame(to_world, label);
+    camera.motion = animations_.motion(number);
     c_.scene.cameras.push_back(std::move(camera));
   }
 
-  void place_light(const tinygltf::Node& node, const glm::dmat4& to_world, const std::string& label) {
+  void place_light(std::size_t node_number, const glm::dmat4& to_world, const std::string& label) {
+    const tinygltf::Node& node = model_.nodes[node_number];
     const auto extension = node.extensions.find("KHR_lights_punctual");
     if (extension == node.extensions.end() || !extension->second.Has("light")) return;
     const int reference = extension->second.Get("light").GetNumberAsInt();
     if (reference < 0 || static_cast<std::size_t>(reference) >= model_.lights.size()) {
       bad_input("{}: light {} does not exist", label, reference);
     }
+    animations_.light_at(node_number);
     const auto number = static_cast<std::size_t>(reference);
     const tinygltf::Light& in = model_.lights[number];
     Light light = convert_light(in, label_of("lights", number, in.name));
@@ -220,6 +163,7 @@ class NodeWalk {
   Conversion& c_;
   const tinygltf::Model& model_;
   std::vector<int> parent_;
+  CameraAnimations animations_;
   std::vector<Pending> stack_;
   std::uint64_t triangles_ = 0;
 };

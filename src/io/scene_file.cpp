@@ -41,7 +41,6 @@ void note_unread(Conversion& c) {
   const auto note = [&](const char* kind, std::size_t count) {
     if (count > 0) c.ignored.add(kind, "", count);
   };
-  note("animations (the file's static pose is used)", c.model.animations.size());
   note("skins (the meshes' own pose is used)", c.model.skins.size());
   note("textures (factors only are used)", c.model.textures.size());
   note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);

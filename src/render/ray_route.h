@@ -17,6 +17,9 @@ enum class RayRoute {
 
 constexpr std::size_t kRayRoutes = 4;
 
+/// By index_of.
+constexpr std::array<const char*, kRayRoutes> kRouteNames = {"cached", "indexed", "linked", "other"};
+
 /// Rays by route.
 template <typename Count>
 using RouteCounts = std::array<Count, kRayRoutes>;

@@ -41,7 +41,8 @@ struct RenderOptions {
 struct AovInfo {
   std::string name;
   std::string summary;
-  bool heat_map;  ///< make_heat_map draws it
+  bool heat_map;    ///< make_heat_map draws it
+  bool heat_scale;  ///< and by a scale of numbers
 };
 
 /// What RenderOptions::aovs may name.

@@ -45,11 +45,21 @@ TEST_F(Stats, FileAddsUp) {
   EXPECT_EQ(stats["shadow"]["rays"], rays);
   EXPECT_GE(lamp["occluded"]["primitive_tests_per_ray"], 1);
   EXPECT_GE(lamp["unoccluded"]["node_tests_per_ray"], 1);
+  int answered = 0;
+  for (const Json& route : lamp["routes"]) answered += route.get<int>();
+  EXPECT_EQ(answered, rays);
+  EXPECT_TRUE(lamp["routes"].contains("cached"));
+  EXPECT_EQ(stats["shadow"]["routes"], lamp["routes"]);
   int skipped = 0;
   for (const Json& reason : lamp["skipped"]) skipped += reason.get<int>();
   EXPECT_EQ(rays + skipped, stats["camera"]["hits"]);
   for (const char* phase : {"load", "build", "render", "write"}) EXPECT_GE(stats["seconds"][phase], 0) << phase;
   EXPECT_GT(stats["mrays_per_second"], 0);
+}
+
+TEST_F(Stats, HeatMapsAreAmongTheOutputs) {
+  ASSERT_EQ(render({"--stats", path("stats.json"), "--heat-map", "kernel=" + path("heat.png")}).code, 0);
+  EXPECT_EQ(Json::parse(read("stats.json"))["outputs"], Json({path("out.exr"), path("heat.png")}));
 }
 
 TEST_F(Stats, DashIsStdout) {

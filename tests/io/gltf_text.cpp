@@ -76,6 +76,16 @@ int Gltf::mesh(const nlohmann::json& primitive) {
   return static_cast<int>(json["meshes"].size()) - 1;
 }
 
+void Gltf::animate(std::size_t animation, int node, const std::string& path, const std::vector<float>& times,
+                   const std::vector<float>& values, const std::string& interpolation) {
+  const int input = accessor(bytes_of(times), 5126, times.size(), "SCALAR");
+  const int output = path == "rotation" ? accessor(bytes_of(values), 5126, values.size() / 4, "VEC4") : floats3(values);
+  nlohmann::json& to = json["animations"][animation];
+  const std::size_t sampler = to["samplers"].size();
+  to["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
+  to["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
+}
+
 int Gltf::root(const nlohmann::json& node) {
   json["nodes"].push_back(node);
   const int number = static_cast<int>(json["nodes"].size()) - 1;

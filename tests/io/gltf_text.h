@@ -48,6 +48,9 @@ struct Gltf {
   int indices(const std::vector<std::uint16_t>& values);
   /// A mesh of one primitive.
   int mesh(const nlohmann::json& primitive);
+  /// A key at each of `times` for a node's "translation", "rotation" or "scale", in `animation`.
+  void animate(std::size_t animation, int node, const std::string& path, const std::vector<float>& times,
+               const std::vector<float>& values, const std::string& interpolation = "LINEAR");
   /// A root node of scene 0.
   int root(const nlohmann::json& node);
 

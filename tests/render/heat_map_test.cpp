@@ -48,9 +48,20 @@ int count(const io::Image& picture, int y, Color color) {
   return n;
 }
 
-io::Image drawn(const std::string& aov, const io::Image& image, const RenderStats& stats = {}) {
+/// The row of the ticks' upper ends: the first one below the bar's lower border.
+int tick_row(const io::Image& picture, int image_height) {
+  const Color ink = display_color(0x1a1a1a);
+  const auto is_border = [&](int y) { return count(picture, y, ink) > picture.width * 9 / 10; };
+  int y = image_height;
+  for (const bool inside_border : {false, true, false, true}) {
+    while (y < picture.height && is_border(y) == inside_border) ++y;
+  }
+  return y;
+}
+
+io::Image drawn(const HeatMapContent& content, const io::Image& image, const RenderStats& stats = {}) {
   io::Image picture;
-  const Status status = make_heat_map(aov, image, stats, picture);
+  const Status status = make_heat_map(content, image, stats, picture);
   EXPECT_TRUE(status.ok()) << status.message();
   return picture;
 }
@@ -88,30 +99,41 @@ TEST(RoundTicks, StepsAndLabels) {
 TEST(HeatScale, LeavesOutTheFewLargest) {
   std::vector<float> values(1000, 46);
   values[3] = 5000;
-  const HeatScale scale = choose_heat_scale(values);
+  const HeatScale scale = choose_heat_scale(values, 0);
   EXPECT_DOUBLE_EQ(scale.end, 50);
   EXPECT_DOUBLE_EQ(scale.step, 10);
   EXPECT_TRUE(scale.clamps);
   EXPECT_EQ(scale.max, 5000);
   EXPECT_NEAR(scale.mean, (999 * 46 + 5000) / 1000.0, 1e-9);
-  EXPECT_FALSE(choose_heat_scale({0, 1, 2}).clamps);
+  EXPECT_FALSE(choose_heat_scale({0, 1, 2}, 0).clamps);
 }
 
 TEST(HeatScale, SurvivesNothingAndInfinity) {
-  EXPECT_EQ(choose_heat_scale({}).end, 1);
-  EXPECT_EQ(choose_heat_scale({0, 0}).end, 1);
-  const HeatScale scale = choose_heat_scale({std::numeric_limits<float>::infinity(), 3, std::nanf("")});
+  EXPECT_EQ(choose_heat_scale({}, 0).end, 1);
+  EXPECT_EQ(choose_heat_scale({0, 0}, 0).end, 1);
+  const HeatScale scale = choose_heat_scale({std::numeric_limits<float>::infinity(), 3, std::nanf("")}, 0);
   EXPECT_EQ(scale.without, 2u);
   EXPECT_EQ(scale.max, 3);
   EXPECT_EQ(scale.mean, 3);
   std::vector<float> mostly_zero(1000, 0);
   mostly_zero[0] = 7;
-  EXPECT_GE(choose_heat_scale(mostly_zero).end, 7) << "or all would be one colour";
+  EXPECT_GE(choose_heat_scale(mostly_zero, 0).end, 7) << "or all would be one colour";
+}
+
+TEST(HeatScale, EndsWhereItIsAskedTo) {
+  const HeatScale scale = choose_heat_scale({0, 46, 5000}, 137);
+  EXPECT_EQ(scale.end, 137);
+  EXPECT_DOUBLE_EQ(scale.step, 20);
+  EXPECT_TRUE(scale.clamps);
+  EXPECT_EQ(scale.max, 5000);
+  EXPECT_FALSE(choose_heat_scale({0, 46}, 137).clamps);
+  EXPECT_EQ(choose_heat_scale({}, 7).end, 7);
+  EXPECT_EQ(choose_heat_scale({0}, 7).end, 7);
 }
 
 TEST(HeatMap, RampGoesFromEndToEndAboveItsLegend) {
   const io::Image image = strip("node_tests.Y", ramp(640, 100), 20);
-  const io::Image picture = drawn("node_tests", image);
+  const io::Image picture = drawn({"node_tests"}, image);
   EXPECT_EQ(picture.width, 640);
   EXPECT_GT(picture.height, 20 + 80);
   EXPECT_LT(picture.height, 20 + 160);
@@ -124,7 +146,7 @@ TEST(HeatMap, RampGoesFromEndToEndAboveItsLegend) {
 }
 
 TEST(HeatMap, LegendHasBarTicksAndText) {
-  const io::Image picture = drawn("node_tests", strip("node_tests.Y", ramp(640, 100), 20));
+  const io::Image picture = drawn({"node_tests"}, strip("node_tests.Y", ramp(640, 100), 20));
   const Color paper = display_color(0xffffff), ink = display_color(0x1a1a1a);
   EXPECT_EQ(count(picture, 20, paper), 640) << "a margin below the picture";
   EXPECT_EQ(count(picture, picture.height - 1, paper), 640);
@@ -140,9 +162,8 @@ TEST(HeatMap, LegendHasBarTicksAndText) {
   EXPECT_NEAR(at(picture, (first + last) / 2, inside).g, viridis(0.5).g, 0.01);
 
   // Ticks at 0, 20, ... 100.
-  int bottom = inside;
-  while (count(picture, bottom, ink) < 600) ++bottom;
-  while (count(picture, bottom, ink) >= 600) ++bottom;
+  const int bottom = tick_row(picture, 20);
+  ASSERT_LT(bottom, picture.height);
   for (int i = 0; i <= 5; ++i) EXPECT_TRUE(same(at(picture, first + (last - first) * i / 5, bottom), ink)) << i;
   EXPECT_EQ(count(picture, bottom, ink), 6 * 2);
 
@@ -156,8 +177,23 @@ TEST(HeatMap, LegendHasBarTicksAndText) {
   EXPECT_GT(ink_between(bottom + 8, picture.height), 500);
 }
 
+TEST(HeatMap, PicturesWithOneEndCompare) {
+  const io::Image dim = drawn({"node_tests", 137}, strip("node_tests.Y", {0, 50, 60}, 20));
+  const io::Image bright = drawn({"node_tests", 137}, strip("node_tests.Y", {50, 137, 9000}, 20));
+  EXPECT_TRUE(same(at(dim, 1, 0), viridis(50 / 137.0)));
+  EXPECT_TRUE(same(at(dim, 1, 0), at(bright, 0, 0)));
+  EXPECT_TRUE(same(at(bright, 1, 0), viridis(1)));
+  EXPECT_TRUE(same(at(bright, 2, 0), viridis(1)));
+  EXPECT_EQ(dim.height, bright.height);
+
+  const io::Image wide = drawn({"node_tests", 137}, strip("node_tests.Y", ramp(640, 100), 20));
+  const int row = tick_row(wide, 20);
+  ASSERT_LT(row, wide.height);
+  EXPECT_EQ(count(wide, row, display_color(0x1a1a1a)), 8 * 2) << "ticks at 0, 20, ... 120 and at the end";
+}
+
 TEST(HeatMap, SmallPictureMakesRoomForItsLegend) {
-  const io::Image picture = drawn("depth", strip("depth.Z", {1, 2, std::numeric_limits<float>::infinity(), 4}, 3));
+  const io::Image picture = drawn({"depth"}, strip("depth.Z", {1, 2, std::numeric_limits<float>::infinity(), 4}, 3));
   EXPECT_GT(picture.width, 200);
   EXPECT_TRUE(same(at(picture, 0, 0), viridis(0.25)));
   EXPECT_TRUE(same(at(picture, 3, 2), viridis(1)));
@@ -174,7 +210,7 @@ TEST(HeatMap, RoutesMixByTheirShares) {
   RenderStats stats;
   stats.lights.resize(1);
   stats.lights[0].routes = {3, 0, 1, 0};
-  const io::Image picture = drawn("kernel", image, stats);
+  const io::Image picture = drawn({"kernel"}, image, stats);
   const Color cached = route_color(RayRoute::cached), linked = route_color(RayRoute::linked);
   EXPECT_TRUE(same(at(picture, 0, 0), cached));
   EXPECT_FLOAT_EQ(at(picture, 1, 0).r, (cached.r + linked.r) / 2);
@@ -191,7 +227,7 @@ TEST(HeatMap, RefusesWhatCannotBeShown) {
   io::Image picture;
   const io::Image image = strip("node_tests.Y", {1}, 1);
   for (const char* aov : {"normal", "colour", "", "kernel", "depth"}) {
-    EXPECT_EQ(make_heat_map(aov, image, {}, picture).code(), StatusCode::invalid_argument) << aov;
+    EXPECT_EQ(make_heat_map({aov}, image, {}, picture).code(), StatusCode::invalid_argument) << aov;
   }
 }
 

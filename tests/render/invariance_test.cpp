@@ -110,6 +110,19 @@ TEST_F(Invariance, CropIsAPartOfTheWhole) {
   }
 }
 
+TEST_F(Invariance, FramesRenderedBefore) {
+  const io::Camera rest = clutter_.view.camera;
+  const auto frame = [&](int number) {
+    clutter_.view.camera = rest;
+    clutter_.view.camera.to_world[0][3] = 0.2 * number;
+    return image(options());
+  };
+  const io::Image third = frame(3), first = frame(1);
+  for (int number = 0; number < 3; ++number) frame(number);
+  expect_same(third, frame(3));
+  expect_same(first, frame(1));
+}
+
 TEST_F(Invariance, SeedChangesThePictureAndNothingElseDoes) {
   RenderOptions other = options();
   other.seed = 1;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,6 +71,8 @@ struct Light {
 
 enum class CameraType { perspective, orthographic };
 
+class CameraMotion;
+
 /// Looks along its local -z, +y up (glTF).
 struct Camera {
   std::string name;
@@ -80,7 +83,23 @@ struct Camera {
   double znear = 0;
   double zfar = std::numeric_limits<double>::infinity();
   Transform to_world = kIdentity;  ///< rotation and translation; any scale is removed
+  /// What moves it over the frames of a sequence (see camera_at), shared by copies; null if it stays as it is here.
+  std::shared_ptr<const CameraMotion> motion;
 };
+
+/// A point of a sequence. glTF animations go by seconds, setup files by frames, which need not be whole.
+struct Moment {
+  double frame = 0;
+  double seconds = 0;
+};
+
+/// The camera at a moment: moved by its motion, whose ends hold before and after it, or as it is if nothing moves it.
+/// Thread-safe. bad_input, in one line that names no file, if the camera has no direction then; `out` is as before.
+UMBRIX_API Status camera_at(const Camera& camera, const Moment& moment, Camera& out);
+
+/// From the first to the last key of what moves the camera: in seconds for a glTF animation's, in frames for a setup
+/// file's; zeros if nothing does.
+UMBRIX_API std::array<double, 2> motion_span(const Camera& camera);
 
 /// What a file holds, after all checks.
 struct SceneFile {
@@ -121,7 +140,8 @@ struct Setup {
 };
 
 /// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"
-/// of which the one that matches the scene's file name is taken. A camera is {eye, target, up, fov_y_degrees}.
+/// of which the one that matches the scene's file name is taken. A camera is {eye, target, up, fov_y_degrees}, or
+/// {keyframes: [...]}, which is as its first key until camera_at moves it.
 /// A light is [x, y, z] (a point light of the default intensity for its position) or an object;
 /// docs/setup.md has the format.
 UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out);

@@ -22,7 +22,10 @@ const Aov* find_aov(const std::string& name) {
 
 std::vector<AovInfo> known_aovs() {
   std::vector<AovInfo> infos;
-  for (const Aov* aov : kTable) infos.push_back({aov->name, aov->summary, aov->heat_map != HeatMapStyle::none});
+  for (const Aov* aov : kTable) {
+    const HeatMapStyle style = aov->heat_map;
+    infos.push_back({aov->name, aov->summary, style != HeatMapStyle::none, style == HeatMapStyle::scale});
+  }
   return infos;
 }
 

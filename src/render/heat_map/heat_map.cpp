@@ -10,17 +10,19 @@
 
 namespace umbrix::render {
 
-Status make_heat_map(const std::string& aov, const io::Image& image, const RenderStats& stats, io::Image& picture) try {
-  const Aov* found = find_aov(aov);
+Status make_heat_map(const HeatMapContent& content, const io::Image& image, const RenderStats& stats,
+                     io::Image& picture) try {
+  const Aov* found = find_aov(content.aov);
   if (!found || found->heat_map == HeatMapStyle::none) {
-    return {StatusCode::invalid_argument, fmt::format("'{}' cannot be shown as a heat map", aov)};
+    return {StatusCode::invalid_argument, fmt::format("'{}' cannot be shown as a heat map", content.aov)};
   }
   const auto channel = std::find(image.channels.begin(), image.channels.end(), found->channels.front());
   if (channel == image.channels.end()) {
     return {StatusCode::invalid_argument, fmt::format("the image has no channel {}", found->channels.front())};
   }
   const AovPixels pixels = {*found, image, static_cast<std::size_t>(channel - image.channels.begin())};
-  picture = found->heat_map == HeatMapStyle::scale ? scale_map(pixels) : share_map(pixels, stats.shadow().routes);
+  picture = found->heat_map == HeatMapStyle::scale ? scale_map(pixels, content.end)
+                                                   : share_map(pixels, stats.shadow().routes);
   return {};
 } catch (const std::bad_alloc&) {
   return {StatusCode::resource_limit, fmt::format("no memory for a heat map of {}x{}", image.width, image.height)};

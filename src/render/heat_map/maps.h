@@ -34,8 +34,8 @@ inline const Color kPaper = display_color(0xffffff);
 inline const Color kInk = display_color(0x1a1a1a);
 inline const Color kNothing = display_color(0x808080);  ///< pixels without a value; no colour map holds a grey
 
-/// The two kinds of heat map, each with its legend.
-io::Image scale_map(const AovPixels& pixels);
+/// The two kinds of heat map, each with its legend; `end` as in HeatMapContent.
+io::Image scale_map(const AovPixels& pixels, double end);
 io::Image share_map(const AovPixels& pixels, const RouteCounts<std::uint64_t>& rays);
 
 }  // namespace umbrix::render

@@ -32,17 +32,31 @@ void draw_bar(Canvas& canvas, const PixelRect& bar, int border) {
   }
 }
 
+/// A place on the scale, and its number below it.
+struct Tick {
+  double value;
+  std::string label;
+};
+
+/// From the upper end down. An end that was asked for need not be a whole number of steps.
+std::vector<Tick> ticks_of(const HeatScale& scale) {
+  const bool whole = std::abs(std::remainder(scale.end, scale.step)) < 1e-6 * scale.step;
+  const std::string end = whole ? tick_label(scale.end, scale.step) : fmt::format("{:.6g}", scale.end);
+  std::vector<Tick> ticks = {{scale.end, (scale.clamps ? ">= " : "") + end}};
+  for (int i = static_cast<int>(std::ceil(scale.end / scale.step - 1e-6)) - 1; i >= 0; --i) {
+    ticks.push_back({i * scale.step, tick_label(i * scale.step, scale.step)});
+  }
+  return ticks;
+}
+
 /// Ticks below the bar, and below those the numbers; from the upper end down, whose number must not be left out where
 /// two would touch.
 void draw_ticks(Canvas& canvas, const PixelRect& bar, const HeatScale& scale, const LegendLayout& layout) {
   const int bottom = bar.y + bar.height + layout.dot;
-  const int steps = static_cast<int>(std::lround(scale.end / scale.step));
   int free_until = canvas.width() - layout.margin();
-  for (int i = steps; i >= 0; --i) {
-    const int x = bar.x + (bar.width - 1) * i / steps;
+  for (const auto& [value, label] : ticks_of(scale)) {
+    const int x = bar.x + static_cast<int>(std::lround((bar.width - 1) * value / scale.end));
     canvas.fill({x - layout.dot / 2, bottom, layout.dot, kTickDots * layout.dot}, kInk);
-    const std::string label =
-        (i == steps && scale.clamps ? ">= " : "") + tick_label(static_cast<double>(i) * scale.step, scale.step);
     const int width = layout.text_width(label);
     const int left = std::min(std::max(x - width / 2, layout.margin()), canvas.width() - layout.margin() - width);
     if (left + width > free_until) continue;
@@ -53,10 +67,10 @@ void draw_ticks(Canvas& canvas, const PixelRect& bar, const HeatScale& scale, co
 
 }  // namespace
 
-io::Image scale_map(const AovPixels& pixels) {
+io::Image scale_map(const AovPixels& pixels, double end) {
   std::vector<float> values(pixels.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = *pixels.at(i);
-  const HeatScale scale = choose_heat_scale(values);
+  const HeatScale scale = choose_heat_scale(values, end);
 
   const io::Image& image = pixels.image;
   const LegendLayout layout(image.width);

@@ -3,7 +3,6 @@
 // with its share of all rays.
 #include <fmt/format.h>
 
-#include <cstring>
 #include <numeric>
 
 #include "render/heat_map/color_map.h"
@@ -22,12 +21,11 @@ struct Entry {
   int x = 0, y = 0;  ///< from the first one
 };
 
-std::vector<Entry> entries_of(const Aov& aov, const RouteCounts<std::uint64_t>& rays, std::uint64_t all) {
+std::vector<Entry> entries_of(const RouteCounts<std::uint64_t>& rays, std::uint64_t all) {
   std::vector<Entry> entries;
   for (std::size_t i = 0; i < kRayRoutes; ++i) {
     const double share = all > 0 ? static_cast<double>(rays[i]) / static_cast<double>(all) : 0;
-    const char* name = std::strchr(aov.channels[i], '.') + 1;
-    entries.push_back({route_color(static_cast<RayRoute>(i)), fmt::format("{} {:.1f} %", name, 100 * share)});
+    entries.push_back({route_color(static_cast<RayRoute>(i)), fmt::format("{} {:.1f} %", kRouteNames[i], 100 * share)});
   }
   entries.push_back({kNoRay, "no shadow ray"});
   return entries;
@@ -71,7 +69,7 @@ io::Image share_map(const AovPixels& pixels, const RouteCounts<std::uint64_t>& r
   const LegendLayout layout(image.width);
   const std::string title =
       fmt::format("{}: {} ({:.2f} M)", pixels.aov.name, pixels.aov.unit, 1e-6 * static_cast<double>(all));
-  std::vector<Entry> entries = entries_of(pixels.aov, rays, all);
+  std::vector<Entry> entries = entries_of(rays, all);
   const int width = std::max(image.width, layout.text_width(title) + 2 * layout.margin());
   const int lines = 1 + place(entries, width - 2 * layout.margin(), layout);
   Canvas canvas(width, image.height + 2 * layout.margin() + lines * layout.line(), kPaper);
