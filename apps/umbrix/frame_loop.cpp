@@ -27,10 +27,12 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
   }
 }
 
-Status trace(const RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
+Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
   const SignalScope stop(OnSignal::stop);
   const Stopwatch watch;
   render::RenderOptions options = render_options(job);
+  if (job.arguments.kernel_name == "auto") options.tracer = &job.tracer;
+  options.frame = frame.number.value_or(0);
   options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
   const render::View view = {frame.camera, job.view.lights};
   Status status = render::render(job.world, view, options, image, report.stats);

@@ -79,6 +79,10 @@ Status build(RenderJob& job) {
   BuildOptions options;
   options.quality = job.arguments.build_quality;
   Status status = render::build_world(job.scene, options, job.world);
+  if (status.ok()) {
+    const bool automatic = job.arguments.kernel_name == "auto";
+    status = automatic ? job.tracer.start(job.world.scene) : job.world.scene.prepare(job.arguments.kernel);
+  }
   job.seconds.build = watch.seconds();
   return status;
 }

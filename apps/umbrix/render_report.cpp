@@ -37,6 +37,28 @@ Json routes(const render::RouteCounts<std::uint64_t>& rays) {
   return counts;
 }
 
+Json confusion(const Confusion& c) {
+  const auto row = [](const std::uint64_t (&counts)[2]) {
+    return Json{{"unoccluded", counts[0]}, {"occluded", counts[1]}};
+  };
+  return {{"predicted_occluded", row(c.predicted_occluded)},
+          {"predicted_unoccluded", row(c.predicted_unoccluded)},
+          {"not_predicted", row(c.not_predicted)},
+          {"accuracy", c.accuracy()}};
+}
+
+/// What the frame tracer foresaw, and what it was worth.
+Json prediction(const FrameStats& frame) {
+  return {{"first", frame.first},
+          {"cut", frame.cut},
+          {"rays", frame.rays},
+          {"confusion", confusion(frame.confusion)},
+          {"cache_tries", frame.cache_tries},
+          {"cache_hits", frame.cache_hits},
+          {"precompute_seconds", frame.precompute_seconds},
+          {"bytes", frame.bytes}};
+}
+
 /// The images, then the heat maps.
 Json output_files(std::vector<std::string> images, const std::vector<HeatMapFile>& maps) {
   for (const HeatMapFile& map : maps) images.push_back(map.path);
@@ -97,6 +119,7 @@ void add_rays(const RenderJob& job, const render::RenderStats& stats, double sec
   out["camera"] = camera_rays(stats);
   out["shadow"] = shadow_rays(shadow);
   out["lights"] = lights;
+  if (stats.frame.rays > 0) out["prediction"] = prediction(stats.frame);
   out["mrays_per_second"] = ratio(mega(stats.camera_rays + shadow.rays()), seconds);
 }
 

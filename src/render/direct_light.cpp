@@ -41,24 +41,29 @@ Ray shadow_ray(const Surface& surface, const Arrival& arrival) {
 
 }  // namespace
 
-void DirectLight::add(const io::Light& light, const std::vector<Surface>& surfaces, std::vector<CameraSample>& samples,
-                      LightStats& stats) {
-  gather(light, surfaces, samples, stats);
-  trace(samples, stats);
+void DirectLight::add(const io::Light& light, std::uint32_t number, const std::vector<Surface>& surfaces,
+                      const std::vector<Pixel>& pixels, std::vector<CameraSample>& samples, LightStats& stats) {
+  gather(light, surfaces, pixels, samples, stats);
+  const auto start = std::chrono::steady_clock::now();
+  trace(number);
+  stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     CameraSample& sample = samples[pending_[i].sample];
     ++sample.shadow_rays;
-    count_route(RayRoute::other, sample, stats);
+    count_route(routes_[i], sample, stats);
+    ++(occluded_[i] ? stats.occluded : stats.unoccluded);
     if (occluded_[i]) continue;
     ++sample.unoccluded;
     sample.radiance += pending_[i].radiance;
   }
+  if (!work_.empty()) count_work(samples, stats);
 }
 
-void DirectLight::gather(const io::Light& light, const std::vector<Surface>& surfaces,
+void DirectLight::gather(const io::Light& light, const std::vector<Surface>& surfaces, const std::vector<Pixel>& pixels,
                          std::vector<CameraSample>& samples, LightStats& stats) {
   rays_.clear();
   skip_.clear();
+  pixels_.clear();
   pending_.clear();
   const LightKind& kind = light_kind(light.type);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -85,34 +90,48 @@ void DirectLight::gather(const io::Light& light, const std::vector<Surface>& sur
     }
     rays_.push_back(shadow_ray(surface, arrival));
     skip_.push_back(surface.primitive);
+    pixels_.push_back(pixels[i]);
     pending_.push_back({i, radiance});
   }
 }
 
-void DirectLight::trace(std::vector<CameraSample>& samples, LightStats& stats) {
+void DirectLight::trace(std::uint32_t light) {
   occluded_.resize(rays_.size());
+  routes_.assign(rays_.size(), RayRoute::other);
+  work_.assign(query_.count_work || query_.count_work_per_ray ? rays_.size() : 0, RayCounts());
+  if (query_.tracer) {
+    ShadowTile tile;
+    tile.light = light;
+    tile.rays = {rays_.data(), rays_.size()};
+    tile.skip = skip_.data();
+    tile.pixels = pixels_.data();
+    tile.routes = routes_.data();
+    tile.each = work_.empty() ? nullptr : work_.data();
+    query_.tracer->occluded(tile, occluded_.data());
+    return;
+  }
   QueryOptions options;
   options.kernel = query_.kernel;
   options.skip = skip_.data();
-  const auto start = std::chrono::steady_clock::now();
-  if (query_.count_work_per_ray) {
-    for (std::size_t i = 0; i < rays_.size(); ++i) {
-      OcclusionCounts counts;
-      options.skip = &skip_[i];
-      world_.scene.occluded({&rays_[i], 1}, &occluded_[i], counts, options);
-      CameraSample& sample = samples[pending_[i].sample];
-      sample.node_tests += counts.occluded.node_tests + counts.unoccluded.node_tests;
-      sample.primitive_tests += counts.occluded.primitive_tests + counts.unoccluded.primitive_tests;
-      stats.counts.occluded += counts.occluded;
-      stats.counts.unoccluded += counts.unoccluded;
-    }
-  } else if (query_.count_work) {
-    world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), stats.counts, options);
-  } else {
+  if (work_.empty()) {
     world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), options);
+    return;
   }
-  stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  for (const std::uint8_t answer : occluded_) ++(answer ? stats.occluded : stats.unoccluded);
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    OcclusionCounts counts;
+    options.skip = &skip_[i];
+    world_.scene.occluded({&rays_[i], 1}, &occluded_[i], counts, options);
+    work_[i] = counts.occluded;
+    work_[i] += counts.unoccluded;
+  }
+}
+
+void DirectLight::count_work(std::vector<CameraSample>& samples, LightStats& stats) const {
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    samples[pending_[i].sample].node_tests += work_[i].node_tests;
+    samples[pending_[i].sample].primitive_tests += work_[i].primitive_tests;
+    (occluded_[i] ? stats.counts.occluded : stats.counts.unoccluded) += work_[i];
+  }
 }
 
 }  // namespace umbrix::render

@@ -13,6 +13,7 @@ namespace umbrix::render {
 /// How shadow rays are asked for and what is counted on the way.
 struct ShadowQuery {
   KernelId kernel;
+  const FrameTracer* tracer = nullptr;  ///< in a frame: answers in place of the kernel
   bool count_work = false;          ///< fill LightStats::counts
   bool count_work_per_ray = false;  ///< fill CameraSample's node and primitive tests as well
 };
@@ -23,13 +24,15 @@ class DirectLight {
  public:
   DirectLight(const World& world, const ShadowQuery& query) : world_(world), query_(query) {}
 
-  void add(const io::Light& light, const std::vector<Surface>& surfaces, std::vector<CameraSample>& samples,
-           LightStats& stats);
+  /// `number` is the light's, `pixels[i]` of samples[i].
+  void add(const io::Light& light, std::uint32_t number, const std::vector<Surface>& surfaces,
+           const std::vector<Pixel>& pixels, std::vector<CameraSample>& samples, LightStats& stats);
 
  private:
-  void gather(const io::Light& light, const std::vector<Surface>& surfaces, std::vector<CameraSample>& samples,
-              LightStats& stats);
-  void trace(std::vector<CameraSample>& samples, LightStats& stats);
+  void gather(const io::Light& light, const std::vector<Surface>& surfaces, const std::vector<Pixel>& pixels,
+              std::vector<CameraSample>& samples, LightStats& stats);
+  void trace(std::uint32_t light);
+  void count_work(std::vector<CameraSample>& samples, LightStats& stats) const;
 
   struct Pending {
     std::size_t sample;
@@ -41,7 +44,10 @@ class DirectLight {
   std::vector<Ray> rays_;
   std::vector<Primitive> skip_;
   std::vector<Pending> pending_;
+  std::vector<Pixel> pixels_;
   std::vector<std::uint8_t> occluded_;
+  std::vector<RayRoute> routes_;
+  std::vector<RayCounts> work_;  ///< of each ray, if counted
 };
 
 }  // namespace umbrix::render

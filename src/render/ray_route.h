@@ -3,22 +3,16 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
+
+#include "umbrix/frame.h"
 
 namespace umbrix::render {
 
-/// Which way answered a shadow ray. The order is that of the `kernel` channels.
-enum class RayRoute {
-  cached,   ///< an occluder remembered from a ray before
-  indexed,  ///< a walk that an index shortened
-  linked,   ///< a walk along links
-  other     ///< the one kernel asked for
-};
+using umbrix::kRayRoutes;
+using umbrix::RayRoute;
 
-constexpr std::size_t kRayRoutes = 4;
-
-/// By index_of.
-constexpr std::array<const char*, kRayRoutes> kRouteNames = {"cached", "indexed", "linked", "other"};
+/// By index_of, in the order of the `kernel` channels.
+constexpr std::array<const char*, kRayRoutes> kRouteNames = {"cached", "beam", "indexed", "linked", "other"};
 
 /// Rays by route.
 template <typename Count>

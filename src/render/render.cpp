@@ -49,13 +49,18 @@ class TileRenderer {
 
   void render(const PixelRect& tile, io::Image& image) {
     TileFilm film(frame_.aovs, tile);
+    order_pixels(tile);
     for (std::uint32_t index = 0; index < frame_.options.samples && !frame_.cancelled(); ++index) {
-      look(tile, index);
+      look(index);
       shade();
       for (std::size_t i = 0; i < frame_.view.lights.size(); ++i) {
-        direct_light_.add(frame_.view.lights[i], surfaces_, samples_, stats_.lights[i]);
+        direct_light_.add(frame_.view.lights[i], static_cast<std::uint32_t>(i), surfaces_, pixels_, samples_,
+                          stats_.lights[i]);
       }
-      for (std::size_t pixel = 0; pixel < tile.size(); ++pixel) film.add(pixel, samples_[pixel]);
+      for (std::size_t i = 0; i < samples_.size(); ++i) {
+        const auto row = static_cast<std::size_t>(pixels_[i].y - tile.y) * static_cast<std::size_t>(tile.width);
+        film.add(row + static_cast<std::size_t>(pixels_[i].x - tile.x), samples_[i]);
+      }
     }
     film.write(frame_.window, image);
   }
@@ -63,15 +68,24 @@ class TileRenderer {
   const RenderStats& stats() const { return stats_; }
 
  private:
+  /// Lists the tile's pixels so that those near each other follow each other: in blocks of 4x4, these in blocks of 16x16.
+  void order_pixels(const PixelRect& tile) {
+    pixels_.clear();
+    for (int i = 0; i < kTileSize * kTileSize; ++i) {
+      const int big = i / 256, block = i / 16 % 16, within = i % 16;
+      const int x = big % 2 * 16 + block % 4 * 4 + within % 4;
+      const int y = big / 2 * 16 + block / 4 * 4 + within / 4;
+      if (x < tile.width && y < tile.height)
+        pixels_.push_back({static_cast<std::uint16_t>(tile.x + x), static_cast<std::uint16_t>(tile.y + y)});
+    }
+  }
+
   /// Sends one camera ray through each pixel.
-  void look(const PixelRect& tile, std::uint32_t index) {
+  void look(std::uint32_t index) {
     rays_.clear();
-    for (int y = tile.y; y < tile.y + tile.height; ++y) {
-      for (int x = tile.x; x < tile.x + tile.width; ++x) {
-        const PixelSample at = pixel_sample(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), index,
-                                            frame_.options.samples, frame_.options.seed);
-        rays_.push_back(frame_.camera.ray(x + at.x, y + at.y));
-      }
+    for (const Pixel& pixel : pixels_) {
+      const PixelSample at = pixel_sample(pixel.x, pixel.y, index, frame_.options.samples, frame_.options.seed);
+      rays_.push_back(frame_.camera.ray(pixel.x + at.x, pixel.y + at.y));
     }
     hits_.assign(rays_.size(), Hit());
     QueryOptions query;
@@ -102,6 +116,7 @@ class TileRenderer {
   const Frame& frame_;
   DirectLight direct_light_;
   RenderStats stats_;
+  std::vector<Pixel> pixels_;  ///< of each ray
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
   std::vector<Surface> surfaces_;
@@ -160,6 +175,18 @@ void prepare_image(const Frame& frame, io::Image& image) {
                                                              frame.window.height)}};
 }
 
+FrameView frame_view(const View& view, const RenderOptions& options) {
+  FrameView result;
+  result.frame = options.frame;
+  result.width = static_cast<std::uint32_t>(options.width);
+  result.height = static_cast<std::uint32_t>(options.height);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.eye[axis] = static_cast<float>(view.camera.to_world[axis][3]);
+    result.forward[axis] = static_cast<float>(-view.camera.to_world[axis][2]);
+  }
+  return result;
+}
+
 void render_tiles(const Frame& frame, io::Image& image, RenderStats& stats) {
   const std::vector<PixelRect> tiles = cut_into_tiles(frame.window);
   std::mutex mutex;
@@ -197,13 +224,17 @@ Status render(const World& world, const View& view, const RenderOptions& options
                        Camera(view.camera, options.width, options.height),
                        window,
                        aovs,
-                       {options.kernel, options.count_work, per_ray}};
+                       {options.kernel, options.tracer, options.count_work, per_ray}};
 
   const auto start = std::chrono::steady_clock::now();
   prepare_image(frame, image);
   stats = RenderStats();
   stats.lights.resize(view.lights.size());
+  if (options.tracer) {
+    if (Status status = options.tracer->begin_frame(frame_view(view, options)); !status) return status;
+  }
   render_tiles(frame, image, stats);
+  if (options.tracer) stats.frame = options.tracer->end_frame();
   stats.seconds = seconds_since(start);
   return frame.cancelled() ? Status(StatusCode::cancelled, "rendering was cancelled") : Status();
 } catch (const std::bad_alloc&) {

@@ -45,6 +45,7 @@ struct RenderStats {
   double camera_seconds = 0;       ///< in closest(), summed over threads
   std::vector<LightStats> lights;  ///< in the order given
   double seconds = 0;              ///< of the wall clock
+  FrameStats frame;                ///< of the tracer, if there was one; of the last part added
 
   /// The sum over the lights.
   LightStats shadow() const noexcept {
@@ -60,6 +61,7 @@ struct RenderStats {
     camera_seconds += o.camera_seconds;
     lights.resize(o.lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) lights[i] += o.lights[i];
+    frame = o.frame;
     return *this;
   }
 };

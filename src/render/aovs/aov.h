@@ -9,7 +9,7 @@
 
 namespace umbrix::render {
 
-constexpr std::size_t kMaxAovChannels = 4;
+constexpr std::size_t kMaxAovChannels = 5;
 
 /// How a pixel's samples become one value: their weighted mean, or the smallest (depths must not be mixed: between two
 /// surfaces there is none).

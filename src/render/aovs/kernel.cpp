@@ -20,7 +20,7 @@ double contribute(const CameraSample& sample, double* values) {
 extern const Aov kKernelAov;
 const Aov kKernelAov = {"kernel",
                         "share of the pixel's shadow rays that each way answered; 0 where none was traced",
-                        {"kernel.cached", "kernel.indexed", "kernel.linked", "kernel.other"},
+                        {"kernel.cached", "kernel.beam", "kernel.indexed", "kernel.linked", "kernel.other"},
                         Reduction::mean,
                         0,
                         false,
