@@ -11,6 +11,17 @@
   KERNEL(kStandardKernel)      \
   KERNEL(kLinkedKernel)        \
   KERNEL(kRopesKernel)         \
+  KERNEL(kFarFirstKernel)      \
+  KERNEL(kSatoBoxKernel)       \
+  KERNEL(kSatoAreaKernel)      \
+  KERNEL(kSatoCountKernel)     \
+  KERNEL(kSatoCellKernel)      \
+  KERNEL(kRtsahKernel)         \
+  KERNEL(kKdRestartKernel)     \
+  KERNEL(kPushDownKernel)      \
+  KERNEL(kShortStackKernel)    \
+  KERNEL(kKdBacktrackKernel)   \
+  KERNEL(kRestartTrailKernel)  \
   KERNEL(kBruteKernel)
 
 namespace umbrix {
