@@ -5,6 +5,8 @@
 //   C(low first) = 1 + P_low C_low + (Ponly_high + Pboth V_low) (1 + C_high)
 // and C(high first) likewise. The children of a KD node tile it, so with P = SA(child) / SA(node) for lines that are
 // uniformly distributed, Pboth = P_low + P_high - 1 exactly, and no line meets neither.
+// Leaves stop a line by the area of what they hold. That any leaf with something in it stops every line, as the
+// authors' code has it, made about as good an order on real scenes, and a worse one on one of five.
 #include "index/rtsah_order.h"
 
 #include <algorithm>
@@ -44,18 +46,16 @@ std::uint32_t count_triangles(const Tree& tree, const Node& leaf) {
 
 }  // namespace
 
-std::unique_ptr<ChildOrder> make_rtsah_order(const Tree& tree, LeafVisibility leaves, const Executor* executor) {
+std::unique_ptr<ChildOrder> make_rtsah_order(const Tree& tree, const Executor* executor) {
   auto order = std::make_unique<ChildOrder>(tree);
   const std::vector<double> areas = cell_areas(tree);
-  std::vector<double> visibilities;
-  if (leaves == LeafVisibility::by_area) visibilities = leaf_visibilities(tree, executor);
+  const std::vector<double> visibilities = leaf_visibilities(tree, executor);
   const CostModel cost;
   std::vector<Expected> expected(tree.nodes.size());
   for (auto i = static_cast<std::uint32_t>(tree.nodes.size()); i-- > 0;) {
     const Node& node = tree.nodes[i];
     if (node.is_leaf()) {
-      const std::uint32_t count = count_triangles(tree, node);
-      expected[i] = {visibilities.empty() ? (count == 0 ? 1.0 : 0.0) : visibilities[i], 1 + cost.leaf(count)};
+      expected[i] = {visibilities[i], 1 + cost.leaf(count_triangles(tree, node))};
       continue;
     }
     const std::uint32_t low = node.low_child();

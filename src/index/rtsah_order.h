@@ -8,13 +8,7 @@
 
 namespace umbrix::detail {
 
-/// How likely a ray through a leaf is not to be stopped there.
-enum class LeafVisibility {
-  none,     ///< it always is, unless the leaf is empty
-  by_area,  ///< by the leaf's triangles, taken as independent
-};
-
 /// The order with the smaller expected cost of an occlusion query. Throws std::bad_alloc.
-std::unique_ptr<ChildOrder> make_rtsah_order(const Tree& tree, LeafVisibility leaves, const Executor* executor);
+std::unique_ptr<ChildOrder> make_rtsah_order(const Tree& tree, const Executor* executor);
 
 }  // namespace umbrix::detail

@@ -8,7 +8,7 @@ namespace umbrix::detail {
 namespace {
 
 std::unique_ptr<SideTable> make(const PrepareInput& input) {
-  return make_rtsah_order(*input.scene.tree, LeafVisibility::by_area, input.training.executor);
+  return make_rtsah_order(*input.scene.tree, input.training.executor);
 }
 
 }  // namespace

@@ -17,6 +17,8 @@
   KERNEL(kSatoCountKernel)     \
   KERNEL(kSatoCellKernel)      \
   KERNEL(kRtsahKernel)         \
+  KERNEL(kSrdhKernel)          \
+  KERNEL(kSrdhOrderKernel)     \
   KERNEL(kKdRestartKernel)     \
   KERNEL(kPushDownKernel)      \
   KERNEL(kShortStackKernel)    \

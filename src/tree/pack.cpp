@@ -24,6 +24,8 @@ struct Visit {
 /// Rounded up, with room for the walk's eps.
 float bound(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-18)); }
 
+}  // namespace
+
 void pack_block(const std::uint32_t* ids, std::uint32_t count, const std::vector<Triangle>& scaled, float diagonal,
                 Block& block) {
   double longest = 0;
@@ -43,8 +45,6 @@ void pack_block(const std::uint32_t* ids, std::uint32_t count, const std::vector
   block.edge_bound = bound(longest);
   block.reach = bound(longest + static_cast<double>(diagonal));
 }
-
-}  // namespace
 
 void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, const CostModel& cost,
                  const Executor* executor, Tree& tree, BuildStats& stats) {

@@ -7,6 +7,10 @@
 
 namespace umbrix::detail {
 
+/// Fills a block with up to eight triangles of a cell; `diagonal` bounds the cell's, with what the walk may be off.
+void pack_block(const std::uint32_t* ids, std::uint32_t count, const std::vector<Triangle>& scaled, float diagonal,
+                Block& block);
+
 /// Turns the leaves' references into blocks of triangles, in place of the leaves, and counts as it goes.
 void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, const CostModel& cost,
                  const Executor* executor, Tree& tree, BuildStats& stats);
