@@ -16,8 +16,6 @@ namespace {
 constexpr std::uint32_t kSplits = CentreBins::kCount - 1;
 /// Centres closer than this, in a scene of size 1, are taken as one.
 constexpr float kLeastExtent = 0x1p-60f;
-/// Many rays say the same: this many of a node's are asked, evenly picked.
-constexpr std::size_t kAskedRays = 4096;
 
 struct Tally {
   std::uint32_t sure_low = 0, sure_high = 0, extra_low = 0, extra_high = 0;
@@ -120,15 +118,13 @@ SrdhSplit find_srdh_split(const std::vector<Box>& boxes, const std::uint32_t* be
                           const TrainingRays& training, const NodeRays& rays) {
   Box centres;
   for (const std::uint32_t* id = begin; id != end; ++id) centres.extend(CentreBins::centre(boxes[*id]));
-  const std::size_t step = 1 + (rays.open.size() + rays.blocked.size()) / kAskedRays;
   Cost best;
   SrdhSplit split;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(centres.extent()[axis] > kLeastExtent)) continue;
     AxisSplits splits(boxes, begin, end, CentreBins(centres, axis));
-    for (std::size_t i = 0; i < rays.open.size(); i += step) splits.add_open(training.rays[rays.open[i]]);
-    for (std::size_t i = 0; i < rays.blocked.size(); i += step) {
-      const NodeRays::Blocked& blocked = rays.blocked[i];
+    for (const std::uint32_t ray : rays.open) splits.add_open(training.rays[ray]);
+    for (const NodeRays::Blocked& blocked : rays.blocked) {
       const std::uint32_t* const blockers = rays.blockers.data() + blocked.first;
       splits.add_blocked(training.rays[blocked.ray], blockers, blockers + blocked.count);
     }

@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kMostRays = 65536;
 constexpr std::size_t kRaysPerTask = 1024;
+/// About as many of a ray's blockers are enough, and bound the memory in scenes of coincident triangles.
+constexpr std::ptrdiff_t kMostBlockers = 1024;
 
 /// Adds the ray and its blockers, each once.
 void gather(const SceneView& scene, const Filter& filter, const Ray& ray, TrainingRays& out) {
@@ -27,7 +29,7 @@ void gather(const SceneView& scene, const Filter& filter, const Ray& ray, Traini
       for (std::uint32_t lane = 0; lane < block.count; ++lane)
         if (blocks(scene, filter, ray, block.id[lane], none)) out.blockers.push_back(block.id[lane]);
     }
-    return false;
+    return static_cast<std::ptrdiff_t>(out.blockers.size()) - first > kMostBlockers;
   };
   stack_walk(*scene.tree, 0, at, walk_ray, walk_ray.tmax, collect, none);
   std::sort(out.blockers.begin() + first, out.blockers.end());

@@ -7,7 +7,8 @@
 namespace umbrix::detail {
 
 /// The training rays with all triangles that block them, by exact tests: at most 65536, evenly picked; none of those
-/// that miss the scene or start far outside it. Throws std::bad_alloc.
+/// that miss the scene or start far outside it. Of a thousand blockers and more some may be left out. Throws
+/// std::bad_alloc.
 TrainingRays gather_blockers(const PrepareInput& input);
 
 }  // namespace umbrix::detail
