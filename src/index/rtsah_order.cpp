@@ -6,7 +6,7 @@
 // and C(high first) likewise. The children of a KD node tile it, so with P = SA(child) / SA(node) for lines that are
 // uniformly distributed, Pboth = P_low + P_high - 1 exactly, and no line meets neither.
 // Leaves stop a line by the area of what they hold. That any leaf with something in it stops every line, as the
-// authors' code has it, made about as good an order on real scenes, and a worse one on one of five.
+// authors' code has it, made as good an order on four real scenes, and one with 7 % more node tests on a fifth.
 #include "index/rtsah_order.h"
 
 #include <algorithm>

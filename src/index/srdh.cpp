@@ -15,8 +15,9 @@
 namespace umbrix::detail {
 namespace {
 
+/// One block. Leaves of four would halve the tests of triangles, for more node tests and twice the memory.
 constexpr std::uint32_t kLeafTriangles = 8;
-/// Below this, halves instead of bins: 16 bins may take off one triangle at a time.
+/// Deeper, runs of triangles are halved: bins may take off one triangle at a time, and the builder is recursive.
 constexpr std::uint32_t kMostSplits = 64;
 constexpr std::ptrdiff_t kParallelTriangles = 8192;
 
@@ -87,8 +88,9 @@ class Builder {
   Subtree joined(const std::uint32_t* begin, const std::uint32_t* end, const Subtree& first,
                  const Subtree& second) const {
     Subtree result;
-    result.nodes.reserve(1 + first.nodes.size() + second.nodes.size());
-    result.nodes.push_back(node(begin, end, result.nodes.capacity(), SrdhNode::kInner));
+    const std::size_t size = 1 + first.nodes.size() + second.nodes.size();
+    result.nodes.reserve(size);
+    result.nodes.push_back(node(begin, end, size, SrdhNode::kInner));
     for (const Subtree* const child : {&first, &second}) {
       result.nodes.insert(result.nodes.end(), child->nodes.begin(), child->nodes.end());
       result.leaves.insert(result.leaves.end(), child->leaves.begin(), child->leaves.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feltman, Lee & Fatahalian 2012, section 3: a split costs, for each ray, the triangles of the sides that it is sure to
+// Feltman, Lee & Fatahalian 2012, "SRDH": a split costs, for each ray, the triangles of the sides that it is sure to
 // visit, and those of a side that it visits for nothing, or to be stopped, only if that side goes first:
 //   no blocker:                 sure of both sides it meets;
 //   blockers on one side only:  sure of that side; the other is extra if it is met;

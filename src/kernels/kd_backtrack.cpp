@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // No stack: after each leaf up to the lowest node that the ray has not left, and down again (Foley & Sugerman 2005,
-// "KD-tree acceleration structures for a GPU raytracer", section 4.2). As with links, the ray leaves a cell at the
+// "KD-tree acceleration structures for a GPU raytracer"). As with links, the ray leaves a cell at the
 // first of its exit planes' times, and planes keep their times. So the way down from that node is the one that would
 // come from the root.
 
@@ -9,6 +9,8 @@
 
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
+
+#include <limits>
 
 #include "index/parents.h"
 #include "kernels/tree_kernel-inl.h"

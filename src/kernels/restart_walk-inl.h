@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks that go on from above, at the time at which they left a leaf, instead of keeping all far children on a stack:
-// kd-restart (Foley & Sugerman 2005, "KD-tree acceleration structures for a GPU raytracer", section 4.1), push-down and
-// short stack (Horn, Sugerman, Houston & Hanrahan 2007, "Interactive k-D tree GPU raytracing", section 3).
+// kd-restart (Foley & Sugerman 2005, "KD-tree acceleration structures for a GPU raytracer"), push-down and short stack
+// (Horn, Sugerman, Houston & Hanrahan 2007, "Interactive k-D tree GPU raytracing").
 //
 // The time of a restart is that of a plane, never of a rounded point. At a node, near is entered if t0 < t(plane) and
 // far otherwise, so a leaf's interval ends at the first plane after t0: restarts move forward, and the intervals of the
@@ -23,43 +23,38 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
+struct FarChild {
+  std::uint32_t node;
+  float t1;
+};
+
 /// The last kSize far children put in; a further one takes the place of the oldest.
 template <std::uint32_t kSize>
 class ShortStack {
  public:
-  struct Entry {
-    std::uint32_t node;
-    float t1;
-  };
-
   bool empty() const { return held_ == 0; }
-  void push(const Entry& entry) {
+  void push(const FarChild& entry) {
     entries_[next_] = entry;
     next_ = next_ + 1 == kSize ? 0 : next_ + 1;
     held_ = held_ == kSize ? kSize : held_ + 1;
   }
-  Entry pop() {
+  FarChild pop() {
     next_ = (next_ == 0 ? kSize : next_) - 1;
     --held_;
     return entries_[next_];
   }
 
  private:
-  Entry entries_[kSize];
+  FarChild entries_[kSize];
   std::uint32_t next_ = 0, held_ = 0;
 };
 
 template <>
 class ShortStack<0> {
  public:
-  struct Entry {
-    std::uint32_t node;
-    float t1;
-  };
-
   bool empty() const { return true; }
-  void push(const Entry&) {}
-  Entry pop() { return {}; }
+  void push(const FarChild&) {}
+  FarChild pop() { return {}; }
 };
 
 /// With `kPushDown` a restart begins at the lowest node that held all of the rest of the ray.
@@ -106,7 +101,7 @@ struct RestartWalk {
       at.t0 = at.t1;
       if (at.t0 > limit) return false;
       if (!stack.empty()) {
-        const auto next = stack.pop();
+        const FarChild next = stack.pop();
         index = next.node;
         at.t1 = next.t1;
       } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stack of fixed size, and push-down restarts where it has lost entries (Horn et al. 2007).
+// A stack of fixed size, and push-down restarts where it has lost entries (Horn et al. 2007). With four entries
+// they add 0 to 4 % to the node tests in rooms and 7 % in foliage; with three 1 to 7 and 13, with eight hardly any.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/short_stack.cpp"
