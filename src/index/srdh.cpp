@@ -103,7 +103,7 @@ class Builder {
                  NodeRays (&children)[2]) const {
     const Box* const boxes[2] = {&low, &high};
     for (const std::uint32_t ray : rays.open)
-      for (const std::size_t side : {0, 1})
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
         if (training_.rays[ray].meets(*boxes[side])) children[side].open.push_back(ray);
     for (const NodeRays::Blocked& blocked : rays.blocked) {
       const std::size_t first = split.high_first ? 1 : 0;

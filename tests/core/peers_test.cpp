@@ -32,11 +32,12 @@ class Peers : public testing::Test {
       rays_.push_back({{u(random), u(random), u(random)}, 0, {u(random), u(random), u(random)}, 1});
   }
 
-  OcclusionCounts count(const std::string& kernel) {
+  OcclusionCounts count(const std::string& kernel, const Executor* executor = nullptr) {
     QueryOptions options;
     EXPECT_TRUE(find_kernel(kernel.c_str(), options.kernel).ok());
     Training training;
     training.rays = {rays_.data(), rays_.size()};
+    training.executor = executor;
     EXPECT_TRUE(scene_.prepare(options.kernel, training).ok());
     std::vector<std::uint8_t> out(rays_.size());
     OcclusionCounts counts;
@@ -64,6 +65,22 @@ TEST_F(Peers, OrderDoesNotMatterToUnoccludedRays) {
 
 TEST_F(Peers, OrderLearnedFromTheRaysIsBetterForThem) {
   EXPECT_LT(count("srdh-order").occluded.primitive_tests, count("standard").occluded.primitive_tests);
+}
+
+TEST_F(Peers, SideTablesDoNotDependOnTheExecutor) {
+  // Backwards and on one thread; oneTBB is another schedule.
+  const Executor backwards{[](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
+                             while (count-- > 0) body(data, count);
+                           },
+                           nullptr};
+  for (std::size_t k = 0; k < kernel_count(); ++k) {
+    if (!kernel_info(k).needs_preparation) continue;
+    SCOPED_TRACE(kernel_info(k).name);
+    const OcclusionCounts a = count(kernel_info(k).name), b = count(kernel_info(k).name, &backwards);
+    EXPECT_EQ(a.occluded.node_tests, b.occluded.node_tests);
+    EXPECT_EQ(a.occluded.primitive_tests, b.occluded.primitive_tests);
+    EXPECT_EQ(a.unoccluded.node_tests, b.unoccluded.node_tests);
+  }
 }
 
 TEST_F(Peers, RestartsReplaceTheStackAndChangeNoLeaf) {
