@@ -56,6 +56,10 @@ void ask(const Scene& scene, const cases::CaseData& data, const Truth& truth, co
   out.answers += occluded.size() + hits.size();
 }
 
+bool is_among(const std::vector<std::string>& kernels, const std::string& kernel) {
+  return kernels.empty() || std::find(kernels.begin(), kernels.end(), kernel) != kernels.end();
+}
+
 }  // namespace
 
 MeshView mesh_of(const std::vector<oracle::Triangle>& triangles) {
@@ -76,6 +80,14 @@ Status build(const std::vector<oracle::Triangle>& triangles, Scene& out) {
   return {};
 }
 
+Status prepare(const std::string& kernel, const std::vector<Ray>& rays, Scene& scene) {
+  KernelId id;
+  if (Status status = find_kernel(kernel.c_str(), id); !status) return status;
+  Training training;
+  training.rays = {rays.data(), rays.size()};
+  return scene.prepare(id, training);
+}
+
 Status judge(const cases::CaseData& data, const Options& options, Result& out) {
   out = {};
   Scene scene;
@@ -84,11 +96,15 @@ Status judge(const cases::CaseData& data, const Options& options, Result& out) {
   for (std::size_t i = 0; kernels.size() < kernel_count() && options.kernels.empty(); ++i) {
     kernels.emplace_back(kernel_info(i).name);
   }
+  for (const std::string& kernel : kernels) {
+    if (Status status = prepare(kernel, data.rays, scene); !status) return status;
+  }
   Truth truth = find_truth(data, std::min(options.closest_rays, data.rays.size()));
   const std::size_t targets = options.all_targets ? simd_target_count() : 1;
   for (std::size_t target = 0; target < targets; ++target) {
     if (Status status = use_simd_target(simd_target_name(target)); !status) return status;
     for (const std::string& kernel : kernels) {
+      if (target > 0 && !is_among(options.on_all_targets, kernel)) continue;
       QueryOptions query;
       if (Status status = find_kernel(kernel.c_str(), query.kernel); !status) return status;
       ask(scene, data, truth, kernel, simd_target_name(target), query, out);

@@ -28,6 +28,7 @@ Answers ask(const Triangles& triangles, const Ray& ray, const Question& question
   if (Status status = build(triangles, scene); !status) return {"a scene", status.message()};
   QueryOptions options;
   if (Status status = find_kernel(question.kernel.c_str(), options.kernel); !status) return {"a kernel", ""};
+  if (Status status = prepare(question.kernel, {ray}, scene); !status) return {"a kernel", status.message()};
   const oracle::BruteForce truth(triangles);
   if (question.query == Query::occluded) {
     std::uint8_t given = 0;

@@ -14,7 +14,7 @@
 #include <algorithm>
 
 #include "kernels/tree_kernel-inl.h"
-#include "tree/pack.h"
+#include "tree/block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {

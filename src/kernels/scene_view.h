@@ -68,7 +68,7 @@ class Filter {
     if (plain_) return true;
     const OpacityTest& test = scene_.meshes[scene_.mesh_of[id]].opacity;
     if (!test.opaque) return true;
-    OrderedHit hit;
+    OrderedHit hit{};
     NoCounts none;  // the test was counted when the hit was found
     hits(ray, scene_.triangles[id], hit, none);
     return is_opaque(id, hit.parameters);

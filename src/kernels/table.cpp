@@ -14,6 +14,19 @@
   KERNEL(kRopesKernel)         \
   KERNEL(kWideKernel)          \
   KERNEL(kBeamKernel)          \
+  KERNEL(kFarFirstKernel)      \
+  KERNEL(kSatoBoxKernel)       \
+  KERNEL(kSatoAreaKernel)      \
+  KERNEL(kSatoCountKernel)     \
+  KERNEL(kSatoCellKernel)      \
+  KERNEL(kRtsahKernel)         \
+  KERNEL(kSrdhKernel)          \
+  KERNEL(kSrdhOrderKernel)     \
+  KERNEL(kKdRestartKernel)     \
+  KERNEL(kPushDownKernel)      \
+  KERNEL(kShortStackKernel)    \
+  KERNEL(kKdBacktrackKernel)   \
+  KERNEL(kRestartTrailKernel)  \
   KERNEL(kBruteKernel)
 
 namespace umbrix {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A kernel made from a walk over the tree: leaves are tested in blocks, whatever order they are visited in. A walk class
-// has
+// A kernel made from a walk over the tree: leaves are tested in blocks, whatever order they are visited in. A walk
+// class has
 //   struct State;                        what lasts from ray to ray of one call; made from a SceneView
-//   static constexpr bool kNearFirst;    leaves come in the order of t, so the first hit can end a closest-hit query
+//   static constexpr bool kNearFirst;    leaves come in the order of t; if they do not, closest-hit queries take the
+//                                        plain stack walk, since only an order of t lets a hit end them
 //   template <class Leaf, class Counts> static bool walk(const SceneView&, State&, const WalkRay&, const float& limit,
 //                                                        Leaf&& leaf, Counts&);
 // and calls leaf(run, t0, t1) for each leaf that holds something, until it returns true.
@@ -110,15 +111,13 @@ struct TreeKernel {
     const LeafTest test(walk_ray);
     return Walk::walk(
         scene, state, walk_ray, walk_ray.tmax,
-        [&](BlockRun run, float, float t1) {
-          return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
-        },
+        [&](BlockRun run, float, float t1) { return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts); },
         counts);
   }
 
   template <class Counts>
-  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
-                                 Nearest& nearest, Counts& counts) {
+  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray,
+                                 [[maybe_unused]] State& state, Nearest& nearest, Counts& counts) {
     if (HWY_UNLIKELY(!is_valid(ray))) {
       counts.invalid_ray();
       return;
@@ -128,9 +127,22 @@ struct TreeKernel {
       far_closest(scene, filter, ray, nearest, counts);
       return;
     }
+    if constexpr (Walk::kNearFirst) {
+      closest_in<Walk>(scene, filter, ray, walk_ray, state, nearest, counts);
+    } else {
+      StackWalk::State none(scene);
+      closest_in<StackWalk>(scene, filter, ray, walk_ray, none, nearest, counts);
+    }
+  }
+
+ private:
+  template <class NearFirstWalk, class Counts>
+  static HWY_INLINE void closest_in(const SceneView& scene, const Filter& filter, const Ray& ray,
+                                    const WalkRay& walk_ray, typename NearFirstWalk::State& state, Nearest& nearest,
+                                    Counts& counts) {
     const LeafTest test(walk_ray);
     float limit = walk_ray.tmax;
-    Walk::walk(
+    NearFirstWalk::walk(
         scene, state, walk_ray, limit,
         [&](BlockRun run, float, float t1) {
           leaf_closest(scene, filter, ray, test, walk_ray, run, t1, nearest, limit, counts);

@@ -47,9 +47,8 @@ float round_up(double x) noexcept {
   return static_cast<double>(f) < x ? above(f) : f;
 }
 
-}  // namespace
-
-Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept {
+/// The part of the triangle inside the cell grown by `margin`; no vertices if there is none.
+Polygon clipped(const Triangle& triangle, const Box& cell, double margin) noexcept {
   Polygon polygon, other;
   for (const Vec3& v : triangle.v) polygon.vertices[polygon.count++] = DVec3(v);
   for (int axis = 0; axis < 3; ++axis) {
@@ -70,6 +69,13 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
       std::swap(polygon, other);
     }
   }
+  return polygon;
+}
+
+}  // namespace
+
+Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept {
+  const Polygon polygon = clipped(triangle, cell, margin);
   Box box;
   for (int i = 0; i < polygon.count; ++i) {
     const DVec3& p = polygon.vertices[i];
@@ -77,6 +83,14 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
     box.extend(Vec3(round_up(p.x), round_up(p.y), round_up(p.z)));
   }
   return box;
+}
+
+double clipped_area(const Triangle& triangle, const Box& cell) noexcept {
+  const Polygon polygon = clipped(triangle, cell, 0);
+  DVec3 twice(0);
+  for (int i = 2; i < polygon.count; ++i)
+    twice += glm::cross(polygon.vertices[i - 1] - polygon.vertices[0], polygon.vertices[i] - polygon.vertices[0]);
+  return 0.5 * glm::length(twice);
 }
 
 float down_by(float x, float by) noexcept { return below(x - by); }

@@ -11,8 +11,4 @@ namespace umbrix::detail {
 void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, const CostModel& cost,
                  const Executor* executor, Tree& tree, BuildStats& stats);
 
-/// Writes a triangle, in the tree's units, into a lane of a block, and raises the block's edge bound for it. Count and
-/// reach are the caller's.
-void pack_lane(std::uint32_t id, const Triangle& scaled, std::uint32_t lane, Block& block);
-
 }  // namespace umbrix::detail

@@ -34,6 +34,14 @@ struct Squares {
 
 Ray up(float x, float y, float tmin = 0, float tmax = kInfinity) { return {{x, y, 0}, tmin, {0, 0, 1}, tmax}; }
 
+/// Makes what the kernel needs, learning from a ray or two.
+void prepare(Scene& scene, KernelId kernel) {
+  const Ray rays[2] = {up(0.75f, 0.25f), up(0.5f, 0.25f, 1, 2)};
+  Training training;
+  training.rays = {rays, 2};
+  ASSERT_TRUE(scene.prepare(kernel, training).ok());
+}
+
 class EveryKernel : public testing::TestWithParam<std::size_t> {
  protected:
   QueryOptions options() const {
@@ -46,6 +54,7 @@ class EveryKernel : public testing::TestWithParam<std::size_t> {
   void SetUp() override {
     for (int i = 0; i < 2; ++i) ASSERT_TRUE(scene.add(squares.view(i)).ok());
     ASSERT_TRUE(scene.commit().ok());
+    prepare(scene, options().kernel);
   }
 
   Squares squares;
@@ -165,6 +174,7 @@ TEST(Scene, AppliesMasksAndOpacity) {
     SCOPED_TRACE(kernel_info(k).name);
     QueryOptions options;
     options.kernel.index = static_cast<int>(k);
+    prepare(scene, options.kernel);
     EXPECT_TRUE(scene.occluded(up(0.75f, 0.25f), options));
     options.mask = 2;
     EXPECT_FALSE(scene.occluded(up(0.75f, 0.25f), options)) << "through the hole";
@@ -224,6 +234,7 @@ TEST(Scene, WorksEmpty) {
   for (std::size_t k = 0; k < kernel_count(); ++k) {
     QueryOptions options;
     options.kernel.index = static_cast<int>(k);
+    prepare(scene, options.kernel);
     Hit hit;
     EXPECT_FALSE(scene.occluded(up(0, 0), options));
     EXPECT_FALSE(scene.closest(up(0, 0), hit, options));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every kernel on every instruction set, on every hard case: the answers are those of exact arithmetic.
+// Every kernel on every hard case: the answers are those of exact arithmetic. Instruction sets differ in the test of a
+// leaf, which tree walks share, so two of those stand for the others on all but the best one.
 #include "cases/cases.h"
 
 #include <gtest/gtest.h>
@@ -25,6 +26,7 @@ TEST_P(HardCase, EveryKernelIsRight) {
     const cases::CaseData data = c.make(seed, rays);
     Options options;
     options.all_targets = true;
+    options.on_all_targets = {"standard", "linked"};
     options.closest_rays = rays / 2;
     Result result;
     const Status status = judge(data, options, result);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "cases/cases.h"
@@ -58,18 +59,25 @@ class ThreeMeshes {
 using VisibleTo = std::function<bool(std::size_t ray, std::uint32_t triangle)>;
 
 // Each kernel's answers against brute force over the triangles that `visible` lets each ray see.
-void expect_right(const Scene& scene, const ThreeMeshes& meshes, const std::vector<Ray>& rays, QueryOptions options,
+void expect_right(Scene& scene, const ThreeMeshes& meshes, const std::vector<Ray>& rays, QueryOptions options,
                   const VisibleTo& visible) {
+  Training training;
+  training.rays = {rays.data(), rays.size()};
+  training.skip = options.skip;
+  std::vector<std::optional<oracle::BruteForce::Closest>> truths(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    truths[i] = meshes.oracle().closest(rays[i], [&](std::uint32_t triangle) { return visible(i, triangle); });
+  }
   std::vector<std::uint8_t> occluded(rays.size());
   std::vector<Hit> hits(rays.size());
   for (std::size_t k = 0; k < kernel_count(); ++k) {
     SCOPED_TRACE(kernel_info(k).name);
     ASSERT_TRUE(find_kernel(kernel_info(k).name, options.kernel).ok());
+    ASSERT_TRUE(scene.prepare(options.kernel, training).ok());
     scene.occluded({rays.data(), rays.size()}, occluded.data(), options);
     scene.closest({rays.data(), rays.size()}, hits.data(), options);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto sees = [&](std::uint32_t triangle) { return visible(i, triangle); };
-      const auto truth = meshes.oracle().closest(rays[i], sees);
+      const auto& truth = truths[i];
       ASSERT_EQ(occluded[i] != 0, truth.has_value()) << "ray " << i;
       ASSERT_EQ(hits[i].valid(), truth.has_value()) << "ray " << i;
       if (!truth) continue;

@@ -66,6 +66,7 @@ TEST_F(Invariance, Kernels) {
     SCOPED_TRACE(kernel_info(i).name);
     RenderOptions with_kernel = options();
     ASSERT_TRUE(find_kernel(kernel_info(i).name, with_kernel.kernel).ok());
+    ASSERT_TRUE(world_.scene.prepare(with_kernel.kernel).ok());
     expect_same(usual, image(with_kernel));
   }
 }
