@@ -35,6 +35,7 @@ class PlaceFinder {
         frame_(static_cast<std::uint64_t>(frame)),
         inverse_cell_(static_cast<float>(1 / (extent * static_cast<double>(options.cell)))) {}
 
+  std::uint32_t together() const noexcept { return options_.region; }
   PredictorRule rule() const noexcept { return options_.rule; }
   bool needs_pixels() const noexcept { return options_.key == PredictorKey::screen; }
 
@@ -88,7 +89,7 @@ class TileMemory {
     for (std::uint32_t k = 0; k < count && remembers_; ++k) {
       const std::uint16_t i = order[k];
       // Cells are larger than the spacing of rays: a few neighbours go by the first of them.
-      if (places_.needs_pixels() || k % kTogether == 0) {
+      if (places_.needs_pixels() || k % places_.together() == 0) {
         const Place here = places_.find(light_, rays.rays[begin + i], pixel(i));
         if (known_count_ == 0 || !(here == place)) {
           place = here;
@@ -155,7 +156,7 @@ class TileMemory {
     std::uint32_t seen[2];       ///< of these, the samples, by PredictorRule::sample
     std::uint32_t seen_blocker;  ///< plus one
   };
-  static constexpr std::uint32_t kTogether = 16;
+  static constexpr std::uint32_t kTogether = 1;
 
   void recall(const Place& place) noexcept {
     Known& known = known_[known_count_++];

@@ -23,7 +23,7 @@ struct FarFirstWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State&, const WalkRay& ray, const float&, Leaf&& leaf,
                               Counts& counts) {
-    const Interval at = clip_to_root(ray, scene.tree->root);
+    const Interval at = clip_to_root(ray, *scene.tree);
     const auto far_child = [](std::uint32_t, std::uint32_t near) { return near ^ 1u; };
     return at.t0 <= at.t1 && ordered_walk(*scene.tree, at, ray, far_child, leaf, counts);
   }

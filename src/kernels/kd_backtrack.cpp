@@ -41,7 +41,7 @@ struct BacktrackWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State& state, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    Interval at = clip_to_root(ray, scene.tree->root);
+    Interval at = clip_to_root(ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
     if (HWY_UNLIKELY(!state.parents)) return stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
     const Node* const nodes = scene.tree->nodes.data();

@@ -29,7 +29,7 @@ struct OrderedWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State& state, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    const Interval at = clip_to_root(ray, scene.tree->root);
+    const Interval at = clip_to_root(ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
     if (HWY_UNLIKELY(!state.order)) return stack_walk(*scene.tree, 0, at, ray, limit, leaf, counts);
     const auto first_child = [order = state.order](std::uint32_t node, std::uint32_t near) {

@@ -28,7 +28,7 @@ struct RestartTrailWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State&, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    const Interval root = clip_to_root(ray, scene.tree->root);
+    const Interval root = clip_to_root(ray, *scene.tree);
     if (!(root.t0 <= root.t1)) return false;
     const Node* const nodes = scene.tree->nodes.data();
     std::uint64_t trail = 0;

@@ -66,7 +66,7 @@ struct RestartWalk {
   template <class Leaf, class Counts>
   static HWY_INLINE bool walk(const SceneView& scene, State&, const WalkRay& ray, const float& limit, Leaf&& leaf,
                               Counts& counts) {
-    Interval at = clip_to_root(ray, scene.tree->root);
+    Interval at = clip_to_root(ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
     const Node* const nodes = scene.tree->nodes.data();
     const float end = at.t1;

@@ -19,7 +19,7 @@ void gather(const SceneView& scene, const Filter& filter, const Ray& ray, Traini
   if (!is_valid(ray)) return;
   WalkRay walk_ray;
   if (prepare(ray, *scene.tree, walk_ray) == Reach::far) return;
-  const Interval at = clip_to_root(walk_ray, scene.tree->root);
+  const Interval at = clip_to_root(walk_ray, *scene.tree);
   if (!(at.t0 <= at.t1)) return;
   const auto first = static_cast<std::ptrdiff_t>(out.blockers.size());
   NoCounts none;
@@ -51,7 +51,7 @@ TrainingRays gather_all(const PrepareInput& input) {
   std::vector<TrainingRays> parts((count + kRaysPerTask - 1) / kRaysPerTask);
   parallel_for(training.executor, parts.size(), [&](std::size_t task) {
     const DefaultFloatMode mode;
-    Filter filter(input.scene, QueryOptions());
+    Filter filter(input.scene, 0xFFFFFFFFu);
     for (std::size_t i = task * kRaysPerTask; i < std::min(count, (task + 1) * kRaysPerTask); ++i) {
       const std::size_t picked = i * training.rays.count / count;
       if (training.skip) filter.set_skip(training.skip[picked]);

@@ -122,7 +122,9 @@ void build(const std::vector<detail::Triangle>& triangles, Scene& scene) {
   ASSERT_TRUE(scene.commit().ok());
 }
 
-bool is_for_all_targets(const std::string& kernel) { return kernel == "standard" || kernel == "linked"; }
+bool is_for_all_targets(const std::string& kernel) {
+  return kernel == "auto" || kernel == "standard" || kernel == "linked";
+}
 
 void prepare_all(const std::vector<Ray>& rays, Scene& scene) {
   Training training;

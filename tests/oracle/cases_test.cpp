@@ -26,7 +26,7 @@ TEST_P(HardCase, EveryKernelIsRight) {
     const cases::CaseData data = c.make(seed, rays);
     Options options;
     options.all_targets = true;
-    options.on_all_targets = {"standard", "linked"};
+    options.on_all_targets = {"auto", "standard", "linked"};
     options.closest_rays = rays / 2;
     Result result;
     const Status status = judge(data, options, result);
