@@ -9,6 +9,8 @@
 // In the order shown to users; the first is the default.
 #define UMBRIX_KERNELS(KERNEL) \
   KERNEL(kStandardKernel)      \
+  KERNEL(kIndexedKernel)       \
+  KERNEL(kIndexedPaperKernel)  \
   KERNEL(kLinkedKernel)        \
   KERNEL(kRopesKernel)         \
   KERNEL(kWideKernel)          \

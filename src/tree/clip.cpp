@@ -47,10 +47,9 @@ float round_up(double x) noexcept {
   return static_cast<double>(f) < x ? above(f) : f;
 }
 
-}  // namespace
-
-Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept {
-  Polygon polygon, other;
+/// The part of the triangle inside the cell grown by `margin`; false if there is none.
+bool clip_to_cell(const Triangle& triangle, const Box& cell, double margin, Polygon& polygon) noexcept {
+  Polygon other;
   for (const Vec3& v : triangle.v) polygon.vertices[polygon.count++] = DVec3(v);
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = static_cast<double>(cell.lower[axis]) - margin;
@@ -60,7 +59,7 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
       low = std::min(low, polygon.vertices[i][axis]);
       high = std::max(high, polygon.vertices[i][axis]);
     }
-    if (low > upper || high < lower) return {};
+    if (low > upper || high < lower) return false;
     if (low < lower) {
       clip(polygon, axis, lower, 1, other);
       std::swap(polygon, other);
@@ -70,6 +69,14 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
       std::swap(polygon, other);
     }
   }
+  return true;
+}
+
+}  // namespace
+
+Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept {
+  Polygon polygon;
+  if (!clip_to_cell(triangle, cell, margin, polygon)) return {};
   Box box;
   for (int i = 0; i < polygon.count; ++i) {
     const DVec3& p = polygon.vertices[i];
@@ -77,6 +84,15 @@ Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noe
     box.extend(Vec3(round_up(p.x), round_up(p.y), round_up(p.z)));
   }
   return box;
+}
+
+double clipped_area(const Triangle& triangle, const Box& cell) noexcept {
+  Polygon polygon;
+  if (!clip_to_cell(triangle, cell, 0, polygon)) return 0;
+  DVec3 twice(0);
+  for (int i = 2; i < polygon.count; ++i)
+    twice += glm::cross(polygon.vertices[i - 1] - polygon.vertices[0], polygon.vertices[i] - polygon.vertices[0]);
+  return glm::length(twice) / 2;
 }
 
 float down_by(float x, float by) noexcept { return below(x - by); }

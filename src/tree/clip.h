@@ -9,6 +9,9 @@ namespace umbrix::detail {
 /// empty if there is none.
 Box clipped_bounds(const Triangle& triangle, const Box& cell, double margin) noexcept;
 
+/// The area of the part of the triangle inside the cell.
+double clipped_area(const Triangle& triangle, const Box& cell) noexcept;
+
 /// A float at least `by` below or above x, and hardly more.
 float down_by(float x, float by) noexcept;
 float up_by(float x, float by) noexcept;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel_for.h"
-#include "tree/clip.h"
+#include "tree/block.h"
 
 namespace umbrix::detail {
 namespace {
@@ -20,29 +20,6 @@ struct Visit {
   std::uint32_t node;
   Box cell;
 };
-
-/// Rounded up, with room for the walk's eps.
-float bound(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-18)); }
-
-void pack_block(const std::uint32_t* ids, std::uint32_t count, const std::vector<Triangle>& scaled, float diagonal,
-                Block& block) {
-  double longest = 0;
-  for (std::uint32_t lane = 0; lane < kBlockLanes; ++lane) {
-    const std::uint32_t id = ids[lane < count ? lane : 0];
-    const Triangle& t = scaled[id];
-    const Vec3 e1 = t.v[1] - t.v[0], e2 = t.v[2] - t.v[0];
-    for (int axis = 0; axis < 3; ++axis) {
-      block.v0[axis][lane] = t.v[0][axis];
-      block.e1[axis][lane] = e1[axis];
-      block.e2[axis][lane] = e2[axis];
-    }
-    block.id[lane] = id;
-    longest = std::max({longest, glm::length(DVec3(e1)), glm::length(DVec3(e2))});
-  }
-  block.count = count;
-  block.edge_bound = bound(longest);
-  block.reach = bound(longest + static_cast<double>(diagonal));
-}
 
 }  // namespace
 
@@ -84,6 +61,7 @@ void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, con
   // Fill the blocks.
   tree.nodes = std::move(unpacked.nodes);
   tree.blocks.resize(block_count);
+  const auto triangle_of = [&scaled](std::uint32_t id) -> const Triangle& { return scaled[id]; };
   constexpr std::size_t kLeavesPerTask = 4096;
   parallel_for(executor, (leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask, [&](std::size_t task) {
     const std::size_t end = std::min(leaves.size(), (task + 1) * kLeavesPerTask);
@@ -93,7 +71,7 @@ void pack_leaves(UnpackedTree unpacked, const std::vector<Triangle>& scaled, con
       const std::uint32_t first = node.first_block(), count = node.block_count();
       std::uint32_t blocks = 0;
       for (std::uint32_t done = 0; done < count; done += kBlockLanes)
-        pack_block(&unpacked.references[first + done], std::min(kBlockLanes, count - done), scaled, leaf.diagonal,
+        pack_block(&unpacked.references[first + done], std::min(kBlockLanes, count - done), triangle_of, leaf.diagonal,
                    tree.blocks[leaf.first_block + blocks++]);
       node = Node::leaf(leaf.first_block, blocks);
     }

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stack walk that tests lists of likely blockers on the inner nodes it enters ("multi-index tree", Liang & Huang
+// 2019). They are tested against the whole ray: a hit anywhere ends it.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels/indexed.cpp"
+
+#include "kernels/indexed.h"
+
+#include <hwy/foreach_target.h>  // compiles this file once for each instruction set
+#include <hwy/highway.h>
+
+#include "core/parallel_for.h"
+#include "index/primitive_index.h"
+#include "index/select_learned.h"
+#include "index/select_paper.h"
+#include "kernels/tree_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct IndexedKernel {
+  using Plain = TreeKernel<StackWalk>;
+
+  struct State {
+    const PrimitiveIndex* index;  ///< null: walk without
+    Plain::State plain;
+
+    explicit State(const SceneView& scene) : index(static_cast<const PrimitiveIndex*>(scene.side)), plain(scene) {
+      if (index && index->empty()) index = nullptr;
+    }
+  };
+
+  template <class Counts>
+  static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
+                                  Counts& counts) {
+    if (!state.index) return Plain::occluded(scene, filter, ray, state.plain, counts);
+    WalkRay walk_ray;
+    if (HWY_UNLIKELY(!is_valid(ray) || prepare(ray, *scene.tree, walk_ray) == Reach::far))
+      return Plain::occluded(scene, filter, ray, state.plain, counts);
+    const Interval at = clip_to_root(walk_ray, scene.tree->root);
+    if (!(at.t0 <= at.t1)) return false;
+    const LeafTest test(walk_ray);
+    const PrimitiveIndex& index = *state.index;
+    const auto leaf = [&](BlockRun run, float, float t1) {
+      return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
+    };
+    const auto inner = [&](std::uint32_t node, float t0) {
+      if (HWY_LIKELY(!index.has_list(node))) return false;
+      const Block& list = index.list(node);
+      counts.indexed(list.count);
+      return block_blocks(scene, filter, ray, test, walk_ray, list, test.reach(list, t0), counts);
+    };
+    return stack_walk(*scene.tree, 0, at, walk_ray, walk_ray.tmax, leaf, counts, inner);
+  }
+
+  /// Lists say nothing of the closest hit.
+  template <class Counts>
+  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
+                                 Nearest& nearest, Counts& counts) {
+    Plain::closest(scene, filter, ray, state.plain, nearest, counts);
+  }
+};
+
+const EntryPoints& indexed() { return entry_points<IndexedKernel>(); }
+const EntryPoints& indexed_paper() { return entry_points<IndexedKernel>(); }
+
+struct WatchEnding : CountEach {
+  const Block* block = nullptr;
+  std::uint32_t blocker = Primitive::kNone;
+
+  bool blocked_by(const Block& where, std::uint32_t lane) noexcept {
+    block = &where;
+    blocker = where.id[lane];
+    return true;
+  }
+};
+
+void endings_of(const SceneView& scene, RaySpan rays, const Primitive* skip, Ending* out) {
+  Filter filter(scene, {});
+  IndexedKernel::State state(scene);
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    if (skip) filter.set_skip(skip[i]);
+    WatchEnding watch;
+    IndexedKernel::occluded(scene, filter, rays[i], state, watch);
+    out[i] = {watch.blocker, watch.block, static_cast<std::uint32_t>(watch.counts.node_tests),
+              static_cast<std::uint32_t>(watch.counts.primitive_tests)};
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace umbrix::detail {
+namespace {
+
+HWY_EXPORT(endings_of);
+
+/// More say little more, and cost time before each frame.
+constexpr std::size_t kMostTrainingRays = 65536;
+
+std::unique_ptr<SideTable> make_paper_index(const PrepareInput& input) {
+  const SceneView& scene = input.scene;
+  return std::make_unique<PrimitiveIndex>(*scene.tree, scene.triangles,
+                                          select_paper(*scene.tree, scene.triangles, scene.kept, scene.kept_count));
+}
+
+std::unique_ptr<SideTable> make_index(const PrepareInput& input) {
+  const Training& training = input.training;
+  if (training.rays.count == 0) return make_paper_index(input);
+  const std::size_t count = std::min(training.rays.count, kMostTrainingRays);
+  std::vector<Ray> rays(count);
+  std::vector<Primitive> skip(training.skip ? count : 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t pick = i * training.rays.count / count;
+    rays[i] = training.rays[pick];
+    if (training.skip) skip[i] = training.skip[pick];
+  }
+  const RaySpan span{rays.data(), count};
+  const std::vector<Ending> endings =
+      find_endings(input.scene, span, training.skip ? skip.data() : nullptr, training.executor);
+  std::vector<std::uint32_t> blockers(count);
+  std::transform(endings.begin(), endings.end(), blockers.begin(), [](const Ending& e) { return e.blocker; });
+  return std::make_unique<PrimitiveIndex>(*input.scene.tree, input.scene.triangles,
+                                          select_learned(*input.scene.tree, {span, blockers.data()}));
+}
+
+}  // namespace
+
+std::vector<Ending> find_endings(const SceneView& scene, RaySpan rays, const Primitive* skip,
+                                 const Executor* executor) {
+  constexpr std::size_t kChunk = 1024;
+  std::vector<Ending> out(rays.count);
+  parallel_for(executor, (rays.count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t first = chunk * kChunk;
+    const RaySpan part{&rays[first], std::min(kChunk, rays.count - first), rays.stride};
+    HWY_DYNAMIC_DISPATCH(endings_of)(scene, part, skip ? skip + first : nullptr, out.data() + first);
+  });
+  return out;
+}
+
+}  // namespace umbrix::detail
+UMBRIX_DEFINE_KERNEL(kIndexedKernel, indexed, "indexed", "the stack walk with likely blockers on inner nodes, learned from rays",
+                     make_index)
+UMBRIX_DEFINE_KERNEL(kIndexedPaperKernel, indexed_paper, "indexed-paper",
+                     "the same with blockers chosen by their size", make_paper_index)
+#endif
