@@ -20,6 +20,7 @@ constexpr Entry kCommands[] = {
     {"stress", "Judge every kernel, and Embree, on hard rays by exact arithmetic", stress_command},
     {"throughput", "Shadow rays per second of every kernel and of Embree, on the same rays", throughput_command},
     {"build", "Build time and memory, against Embree", build_command},
+    {"depth", "How deep in the tree lists of likely blockers end rays, and at what cost", depth_command},
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "index/side_table.h"
@@ -26,6 +27,7 @@ class PrimitiveIndex : public SideTable {
   std::uint64_t bytes() const noexcept override;
   bool empty() const noexcept { return blocks_.empty(); }
 
+  /// Not of an empty index.
   bool has_list(std::uint32_t node) const noexcept {
     return (words_[node / kBits].bits >> (node % kBits) & 1u) != 0;
   }
@@ -35,6 +37,11 @@ class PrimitiveIndex : public SideTable {
     const Word& word = words_[node / kBits];
     const std::uint64_t before = word.bits & ((std::uint64_t{1} << (node % kBits)) - 1);
     return blocks_[word.lists_before + static_cast<std::uint32_t>(__builtin_popcountll(before))];
+  }
+
+  /// Is the block one of the lists?
+  bool holds(const Block* block) const noexcept {
+    return !std::less<>()(block, blocks_.data()) && std::less<>()(block, blocks_.data() + blocks_.size());
   }
 
   /// All lists, and the nodes they belong to, in ascending order.

@@ -123,7 +123,8 @@ class Selection {
     }
     const double entering = entering_[node];
     if (hits < options_.least_hits || hits < options_.least_share * entering) return 0;
-    return spared - entering * (lists_[node] == 0 ? options_.test_cost : CostModel().triangle);
+    const CostModel model;
+    return spared - entering * (model.leaf(lists_[node] + 1u) - model.leaf(lists_[node]));
   }
 
   bool is_alone_on_its_path(const Entry& e) const {

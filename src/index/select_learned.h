@@ -17,11 +17,10 @@ struct BlockedRays {
 };
 
 struct LearnedOptions {
-  double least_share = 0.2;         ///< of the rays that enter a node, blocked by the triangle
-  std::uint32_t least_hits = 4;     ///< rays blocked by it there: fewer are chance
-  std::uint32_t per_node = 4;       ///< triangles; at most kBlockLanes
-  double test_cost = 3;             ///< of a list, in node steps
-  double least_gain = 0.02;         ///< of the rays' work: with less, nothing is placed
+  double least_share = 0.05;     ///< of the rays that enter a node, blocked by the triangle
+  std::uint32_t least_hits = 2;  ///< rays blocked by it there: fewer are chance
+  std::uint32_t per_node = 4;    ///< triangles; at most kBlockLanes
+  double least_gain = 0.02;      ///< of the rays' work: with less, nothing is placed
 };
 
 /// Which triangles to test at which nodes, for rays like these: where the node steps and tests that the rays would have

@@ -85,7 +85,8 @@ void endings_of(const SceneView& scene, RaySpan rays, const Primitive* skip, End
     if (skip) filter.set_skip(skip[i]);
     WatchEnding watch;
     IndexedKernel::occluded(scene, filter, rays[i], state, watch);
-    out[i] = {watch.blocker, watch.block, static_cast<std::uint32_t>(watch.counts.node_tests),
+    const bool is_indexed = state.index && state.index->holds(watch.block);
+    out[i] = {watch.blocker, watch.block, is_indexed, static_cast<std::uint32_t>(watch.counts.node_tests),
               static_cast<std::uint32_t>(watch.counts.primitive_tests)};
   }
 }

@@ -12,7 +12,8 @@ namespace umbrix::detail {
 /// What ended a ray, and what it had cost by then.
 struct Ending {
   std::uint32_t blocker = Primitive::kNone;
-  const Block* block = nullptr;  ///< that holds the blocker: of the tree or of the index; null as well for far rays
+  const Block* block = nullptr;  ///< that holds the blocker, of the tree or the index; null for far rays as well
+  bool is_indexed = false;       ///< of the index
   std::uint32_t node_tests = 0;
   std::uint32_t primitive_tests = 0;
 };
