@@ -27,8 +27,8 @@ InnerScene::InnerScene(const Geometry& geometry) {
 }
 
 detail::SceneView InnerScene::view(const detail::SideTable* side) const {
-  return {&tree_,           triangles_.data(), kept_.data(),   kept_.size(), mesh_of_.data(),
-          meshes_.data(), meshes_.size(),    true, side};
+  return {&tree_,         triangles_.data(), kept_.data(), kept_.size(), mesh_of_.data(),
+          meshes_.data(), meshes_.size(),    true,         side};
 }
 
 }  // namespace umbrix::workload

@@ -16,21 +16,19 @@ struct Placement {
 };
 
 /// Lists of triangles on inner nodes of the tree ("multi-index tree", Liang & Huang 2019): those that end many of the
-/// rays that enter the node, wherever they are. A list is one block, so that testing it costs about one test. Which node
-/// has one is a bit by node, and a list's place the number of bits before it; the nodes stay as they are.
+/// rays that enter the node, wherever they are. A list is one block, so that testing it costs about one test. Which
+/// node has one is a bit by node, and a list's place the number of bits before it; the nodes stay as they are.
 class PrimitiveIndex : public SideTable {
  public:
-  /// Placements in any order, at most kBlockLanes a node; later ones are left out. `triangles` are the scene's, unscaled.
-  /// Holds on to neither. Throws std::bad_alloc.
+  /// Placements in any order, at most kBlockLanes a node; later ones are left out. `triangles` are the scene's,
+  /// unscaled. Holds on to neither. Throws std::bad_alloc.
   PrimitiveIndex(const Tree& tree, const Triangle* triangles, std::vector<Placement> placements);
 
   std::uint64_t bytes() const noexcept override;
   bool empty() const noexcept { return blocks_.empty(); }
 
   /// Not of an empty index.
-  bool has_list(std::uint32_t node) const noexcept {
-    return (words_[node / kBits].bits >> (node % kBits) & 1u) != 0;
-  }
+  bool has_list(std::uint32_t node) const noexcept { return (words_[node / kBits].bits >> (node % kBits) & 1u) != 0; }
 
   /// The node's list, if it has one. `reach` bounds the way from anywhere in the node's cell to the first vertices.
   const Block& list(std::uint32_t node) const noexcept {

@@ -33,9 +33,10 @@ struct Candidate {
   std::uint32_t first_entry, entry_count;
 };
 
-/// What placing a candidate is worth, in node steps.
+/// What placing a candidate is worth, in node steps. A single ray may well be chance: `proven` is the gain without one
+/// of the rays, as if it had been left out of the choice.
 struct Offer {
-  double gain;
+  double gain, proven;
   std::uint32_t candidate;
 
   bool operator<(const Offer& o) const { return gain != o.gain ? gain < o.gain : candidate > o.candidate; }
@@ -66,16 +67,15 @@ class Selection {
     collect_entries();
     collect_candidates();
     while (!offers_.empty()) {
-      Offer offer = offers_.top();
+      const Offer offer = offer_of(offers_.top().candidate);
       offers_.pop();
-      offer.gain = gain(candidates_[offer.candidate]);
       if (!(offer.gain > 0)) continue;
       if (!offers_.empty() && offer < offers_.top())
         offers_.push(offer);
       else if (is_alone_on_its_path(entry(offer.candidate)))
         place(offer);
     }
-    if (!(gain_ > options_.least_gain * work_)) placements_.clear();
+    if (!(proven_gain_ > options_.least_gain * work_)) placements_.clear();
     return std::move(placements_);
   }
 
@@ -86,7 +86,7 @@ class Selection {
     for (std::uint32_t p = 0; p < paths_.size(); ++p)
       for (std::uint32_t s = 0; s < paths_[p].step_count; ++s) {
         const PathStep& step = steps_[paths_[p].first_step + s];
-        if (entering_[step.node] >= options_.least_hits) entries_.push_back({step.node, blockers_[p], p, step.before});
+        entries_.push_back({step.node, blockers_[p], p, step.before});
       }
     std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
       if (a.node != b.node) return a.node < b.node;
@@ -99,19 +99,22 @@ class Selection {
       const Entry& e = entries_[first];
       for (end = first; end < entries_.size() && entries_[end].node == e.node && entries_[end].triangle == e.triangle;)
         ++end;
-      const Candidate candidate{first, end - first};
-      const double worth = gain(candidate);
-      if (!(worth > 0)) continue;
-      offers_.push({worth, static_cast<std::uint32_t>(candidates_.size())});
-      candidates_.push_back(candidate);
+      candidates_.push_back({first, end - first});
+      const Offer offer = offer_of(static_cast<std::uint32_t>(candidates_.size() - 1));
+      if (offer.gain > 0)
+        offers_.push(offer);
+      else
+        candidates_.pop_back();
     }
   }
 
-  /// As things stand: what the rays that still come to the node and are blocked there would be spared, less the tests of
-  /// all that come. 0 if it may not be placed.
-  double gain(const Candidate& candidate) const {
+  /// As things stand: what the rays that still come to the node and are blocked there would be spared, less the tests
+  /// of all that come. Worth 0 if it may not be placed.
+  Offer offer_of(std::uint32_t number) const {
+    const Offer none{0, 0, number};
+    const Candidate& candidate = candidates_[number];
     const std::uint32_t node = entries_[candidate.first_entry].node;
-    if (lists_[node] >= options_.per_node) return 0;
+    if (lists_[node] >= options_.per_node) return none;
     double spared = 0;
     std::uint32_t hits = 0;
     for (std::uint32_t i = 0; i < candidate.entry_count; ++i) {
@@ -122,9 +125,10 @@ class Selection {
       ++hits;
     }
     const double entering = entering_[node];
-    if (hits < options_.least_hits || hits < options_.least_share * entering) return 0;
+    if (hits == 0 || hits < options_.least_share * entering) return none;
     const CostModel model;
-    return spared - entering * (model.leaf(lists_[node] + 1u) - model.leaf(lists_[node]));
+    const double gain = spared - entering * (model.leaf(lists_[node] + 1u) - model.leaf(lists_[node]));
+    return {gain, gain - spared / hits, number};
   }
 
   bool is_alone_on_its_path(const Entry& e) const {
@@ -144,7 +148,7 @@ class Selection {
     const Entry& e = entry(offer.candidate);
     nodes_of_[e.triangle].push_back(e.node);
     ++lists_[e.node];
-    gain_ += offer.gain;
+    proven_gain_ += offer.proven;
     placements_.push_back({e.node, e.triangle});
   }
 
@@ -170,7 +174,7 @@ class Selection {
   std::priority_queue<Offer> offers_;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> nodes_of_;  ///< with the triangle in their lists
   std::vector<Placement> placements_;
-  double work_ = 0, gain_ = 0;
+  double work_ = 0, proven_gain_ = 0;
 };
 
 }  // namespace

@@ -39,8 +39,9 @@ std::vector<Candidate> find_candidates(const Triangle* triangles, int exponent, 
     sum += result[i].box_area;
   }
   const double least = options.least_box * sum / static_cast<double>(count);
-  result.erase(std::remove_if(result.begin(), result.end(), [least](const Candidate& c) { return !(c.box_area > least); }),
-               result.end());
+  result.erase(
+      std::remove_if(result.begin(), result.end(), [least](const Candidate& c) { return !(c.box_area > least); }),
+      result.end());
   std::sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) {
     return a.box_area != b.box_area ? a.box_area > b.box_area : a.id < b.id;
   });
@@ -77,9 +78,8 @@ class Selection {
     triangle_ = &triangle;
     places_.clear();
     best_below(0, tree_.root, 0);
-    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-      return a.score != b.score ? a.score > b.score : a.node < b.node;
-    });
+    std::sort(places_.begin(), places_.end(),
+              [](const Place& a, const Place& b) { return a.score != b.score ? a.score > b.score : a.node < b.node; });
     places_.resize(std::min<std::size_t>(places_.size(), options_.nodes_per_triangle));
     for (const Place& place : places_) {
       List& list = lists_[place.node];
@@ -129,8 +129,7 @@ class Selection {
     if (list.count >= options_.per_node) return {index, 0, 0, 0};
     const CostModel model;
     const double area = half_area(cell), rest = static_cast<double>(costs_.expected[index]);
-    const double measure =
-        options_.reading == PaperReading::area ? clipped_area(*triangle_, cell) : half_area(part);
+    const double measure = options_.reading == PaperReading::area ? clipped_area(*triangle_, cell) : half_area(part);
     const double p = std::min(1.0, measure / area);
     const double test = model.leaf(list.count + 1) - model.leaf(list.count);
     // Lists are one block: what stands there already has been paid for, and takes its share of the lines.

@@ -146,8 +146,8 @@ std::vector<Ending> find_endings(const SceneView& scene, RaySpan rays, const Pri
 }
 
 }  // namespace umbrix::detail
-UMBRIX_DEFINE_KERNEL(kIndexedKernel, indexed, "indexed", "the stack walk with likely blockers on inner nodes, learned from rays",
-                     make_index)
-UMBRIX_DEFINE_KERNEL(kIndexedPaperKernel, indexed_paper, "indexed-paper",
-                     "the same with blockers chosen by their size", make_paper_index)
+UMBRIX_DEFINE_KERNEL(kIndexedKernel, indexed, "indexed",
+                     "the stack walk with likely blockers on inner nodes, learned from rays", make_index)
+UMBRIX_DEFINE_KERNEL(kIndexedPaperKernel, indexed_paper, "indexed-paper", "the same with blockers chosen by their size",
+                     make_paper_index)
 #endif

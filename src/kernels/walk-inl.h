@@ -107,9 +107,9 @@ struct PassBy {
   HWY_INLINE bool operator()(std::uint32_t, float) const { return false; }
 };
 
-/// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0, t1)
-/// returns true to stop, and so may inner(node, t0), called for each inner node entered. `limit` is read before each
-/// subtree: what starts beyond it is left out.
+/// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0,
+/// t1) returns true to stop, and so may inner(node, t0), called for each inner node entered. `limit` is read before
+/// each subtree: what starts beyond it is left out.
 template <class Leaf, class Counts, class Inner = PassBy>
 HWY_INLINE bool stack_walk(const Tree& tree, std::uint32_t index, Interval at, const WalkRay& ray, const float& limit,
                            Leaf&& leaf, Counts& counts, const Inner& inner = Inner()) {

@@ -10,8 +10,8 @@ namespace umbrix::detail {
 /// A bound for the walk's floats: rounded up, with room for its eps.
 inline float bound(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-18)); }
 
-/// Fills a block with 1 to kBlockLanes triangles, where `scaled(id)` is one in the tree's units. Their first vertices are
-/// within the longest edge plus `distance` of every point from which the block will be tested.
+/// Fills a block with 1 to kBlockLanes triangles, where `scaled(id)` is one in the tree's units. Their first vertices
+/// are within the longest edge plus `distance` of every point from which the block will be tested.
 template <class Scaled>
 void pack_block(const std::uint32_t* ids, std::uint32_t count, Scaled&& scaled, float distance, Block& block) {
   double longest = 0;
