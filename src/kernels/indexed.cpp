@@ -18,54 +18,75 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
+
+extern const Kernel kStandardKernel;
+
 namespace HWY_NAMESPACE {
 namespace {
 
+/// Needs an index with lists.
 struct IndexedKernel {
-  using Plain = TreeKernel<StackWalk>;
-
   struct State {
-    const PrimitiveIndex* index;  ///< null: walk without
-    Plain::State plain;
+    const PrimitiveIndex& index;
 
-    explicit State(const SceneView& scene) : index(static_cast<const PrimitiveIndex*>(scene.side)), plain(scene) {
-      if (index && index->empty()) index = nullptr;
-    }
+    explicit State(const SceneView& scene) : index(*static_cast<const PrimitiveIndex*>(scene.side)) {}
   };
 
   template <class Counts>
   static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
                                   Counts& counts) {
-    if (!state.index) return Plain::occluded(scene, filter, ray, state.plain, counts);
+    if (HWY_UNLIKELY(!is_valid(ray))) {
+      counts.invalid_ray();
+      return false;
+    }
     WalkRay walk_ray;
-    if (HWY_UNLIKELY(!is_valid(ray) || prepare(ray, *scene.tree, walk_ray) == Reach::far))
-      return Plain::occluded(scene, filter, ray, state.plain, counts);
+    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
+      return far_occluded(scene, filter, ray, counts);
     const Interval at = clip_to_root(walk_ray, scene.tree->root);
     if (!(at.t0 <= at.t1)) return false;
     const LeafTest test(walk_ray);
-    const PrimitiveIndex& index = *state.index;
     const auto leaf = [&](BlockRun run, float, float t1) {
       return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
     };
     const auto inner = [&](std::uint32_t node, float t0) {
-      if (HWY_LIKELY(!index.has_list(node))) return false;
-      const Block& list = index.list(node);
+      if (HWY_LIKELY(!state.index.has_list(node))) return false;
+      const Block& list = state.index.list(node);
       counts.indexed(list.count);
       return block_blocks(scene, filter, ray, test, walk_ray, list, test.reach(list, t0), counts);
     };
     return stack_walk(*scene.tree, 0, at, walk_ray, walk_ray.tmax, leaf, counts, inner);
   }
-
-  /// Lists say nothing of the closest hit.
-  template <class Counts>
-  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
-                                 Nearest& nearest, Counts& counts) {
-    Plain::closest(scene, filter, ray, state.plain, nearest, counts);
-  }
 };
 
-const EntryPoints& indexed() { return entry_points<IndexedKernel>(); }
-const EntryPoints& indexed_paper() { return entry_points<IndexedKernel>(); }
+bool has_lists(const SceneView& scene) {
+  const auto* const index = static_cast<const PrimitiveIndex*>(scene.side);
+  return index && !index->empty();
+}
+
+// Without lists, and for closest hits, of which lists say nothing, the standard walk is asked itself.
+void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
+  if (has_lists(scene))
+    occluded_each<IndexedKernel>(scene, rays, out, options);
+  else
+    kStandardKernel.entry_points().occluded(scene, rays, out, options);
+}
+void occluded_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options,
+                      OcclusionCounts& counts) {
+  if (has_lists(scene))
+    occluded_each_counted<IndexedKernel>(scene, rays, out, options, counts);
+  else
+    kStandardKernel.entry_points().occluded_counted(scene, rays, out, options, counts);
+}
+void closest(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
+  kStandardKernel.entry_points().closest(scene, rays, out, options);
+}
+void closest_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options, RayCounts& counts) {
+  kStandardKernel.entry_points().closest_counted(scene, rays, out, options, counts);
+}
+
+const EntryPoints kEntryPoints = {&occluded, &occluded_counted, &closest, &closest_counted};
+const EntryPoints& indexed() { return kEntryPoints; }
+const EntryPoints& indexed_paper() { return kEntryPoints; }
 
 struct WatchEnding : CountEach {
   const Block* block = nullptr;
@@ -78,17 +99,26 @@ struct WatchEnding : CountEach {
   }
 };
 
-void endings_of(const SceneView& scene, RaySpan rays, const Primitive* skip, Ending* out) {
+template <class K>
+void watch_each(const SceneView& scene, RaySpan rays, const Primitive* skip, Ending* out) {
   Filter filter(scene, {});
-  IndexedKernel::State state(scene);
+  typename K::State state(scene);
+  const auto* const index = static_cast<const PrimitiveIndex*>(scene.side);
   for (std::size_t i = 0; i < rays.count; ++i) {
     if (skip) filter.set_skip(skip[i]);
     WatchEnding watch;
-    IndexedKernel::occluded(scene, filter, rays[i], state, watch);
-    const bool is_indexed = state.index && state.index->holds(watch.block);
-    out[i] = {watch.blocker, watch.block, is_indexed, static_cast<std::uint32_t>(watch.counts.node_tests),
+    K::occluded(scene, filter, rays[i], state, watch);
+    out[i] = {watch.blocker, watch.block, index && index->holds(watch.block),
+              static_cast<std::uint32_t>(watch.counts.node_tests),
               static_cast<std::uint32_t>(watch.counts.primitive_tests)};
   }
+}
+
+void endings_of(const SceneView& scene, RaySpan rays, const Primitive* skip, Ending* out) {
+  if (has_lists(scene))
+    watch_each<IndexedKernel>(scene, rays, skip, out);
+  else
+    watch_each<TreeKernel<StackWalk>>(scene, rays, skip, out);
 }
 
 }  // namespace
