@@ -36,25 +36,26 @@ PrimitiveIndex::PrimitiveIndex(const Tree& tree, const Triangle* triangles, std:
   const DefaultFloatMode mode;
   std::stable_sort(placements.begin(), placements.end(),
                    [](const Placement& a, const Placement& b) { return a.node < b.node; });
-  words_.resize(tree.nodes.size() / kBits + 1);
+  bits_.resize(tree.nodes.size() / kBits + 1);
   for (std::size_t first = 0, end = 0; first < placements.size(); first = end) {
     const std::uint32_t node = placements[first].node;
     std::uint32_t ids[kBlockLanes], count = 0;
     for (end = first; end < placements.size() && placements[end].node == node; ++end)
       if (count < kBlockLanes) ids[count++] = placements[end].triangle;
     nodes_.push_back(node);
-    words_[node / kBits].bits |= std::uint64_t{1} << (node % kBits);
+    bits_[node / kBits] |= std::uint64_t{1} << (node % kBits);
     pack_list(tree, triangles, node, ids, count, blocks_.emplace_back());
   }
   std::uint32_t lists = 0;
-  for (Word& word : words_) {
-    word.lists_before = lists;
-    lists += static_cast<std::uint32_t>(__builtin_popcountll(word.bits));
+  for (const std::uint64_t word : bits_) {
+    lists_before_.push_back(lists);
+    lists += static_cast<std::uint32_t>(__builtin_popcountll(word));
   }
 }
 
 std::uint64_t PrimitiveIndex::bytes() const noexcept {
-  return words_.size() * sizeof(Word) + nodes_.size() * sizeof(nodes_[0]) + blocks_.size() * sizeof(Block);
+  return bits_.size() * (sizeof(bits_[0]) + sizeof(lists_before_[0])) + nodes_.size() * sizeof(nodes_[0]) +
+         blocks_.size() * sizeof(Block);
 }
 
 }  // namespace umbrix::detail

@@ -27,14 +27,21 @@ class PrimitiveIndex : public SideTable {
   std::uint64_t bytes() const noexcept override;
   bool empty() const noexcept { return blocks_.empty(); }
 
-  /// Not of an empty index.
-  bool has_list(std::uint32_t node) const noexcept { return (words_[node / kBits].bits >> (node % kBits) & 1u) != 0; }
+  /// Which nodes have a list, a bit each; null if none has.
+  class NodeBits {
+   public:
+    explicit NodeBits(const std::uint64_t* words) noexcept : words_(words) {}
+    bool operator[](std::uint32_t node) const noexcept { return (words_[node / kBits] >> (node % kBits) & 1u) != 0; }
+
+   private:
+    const std::uint64_t* words_;
+  };
+  NodeBits has_list() const noexcept { return NodeBits(bits_.data()); }
 
   /// The node's list, if it has one. `reach` bounds the way from anywhere in the node's cell to the first vertices.
   const Block& list(std::uint32_t node) const noexcept {
-    const Word& word = words_[node / kBits];
-    const std::uint64_t before = word.bits & ((std::uint64_t{1} << (node % kBits)) - 1);
-    return blocks_[word.lists_before + static_cast<std::uint32_t>(__builtin_popcountll(before))];
+    const std::uint64_t before = bits_[node / kBits] & ((std::uint64_t{1} << (node % kBits)) - 1);
+    return blocks_[lists_before_[node / kBits] + static_cast<std::uint32_t>(__builtin_popcountll(before))];
   }
 
   /// Is the block one of the lists?
@@ -48,12 +55,9 @@ class PrimitiveIndex : public SideTable {
 
  private:
   static constexpr std::uint32_t kBits = 64;
-  struct Word {
-    std::uint64_t bits = 0;
-    std::uint32_t lists_before = 0;
-  };
 
-  std::vector<Word> words_;  ///< empty if there are no lists
+  std::vector<std::uint64_t> bits_;          ///< by node; none if there are no lists
+  std::vector<std::uint32_t> lists_before_;  ///< by word of bits
   std::vector<std::uint32_t> nodes_;
   std::vector<Block> blocks_;
 };

@@ -48,8 +48,9 @@ struct IndexedKernel {
     const auto leaf = [&](BlockRun run, float, float t1) {
       return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
     };
-    const auto inner = [&](std::uint32_t node, float t0) {
-      if (HWY_LIKELY(!state.index.has_list(node))) return false;
+    const PrimitiveIndex::NodeBits has_list = state.index.has_list();
+    const auto inner = [&, has_list](std::uint32_t node, float t0) {
+      if (HWY_LIKELY(!has_list[node])) return false;
       const Block& list = state.index.list(node);
       counts.indexed(list.count);
       return block_blocks(scene, filter, ray, test, walk_ray, list, test.reach(list, t0), counts);

@@ -34,7 +34,7 @@ TEST(PrimitiveIndex, FindsEachListByItsNode) {
   EXPECT_GE(index.bytes(), expected.size() * sizeof(Block));
   for (std::uint32_t node = 0; node < scene.tree.nodes.size(); ++node) {
     const auto found = expected.find(node);
-    ASSERT_EQ(index.has_list(node), found != expected.end());
+    ASSERT_EQ(index.has_list()[node], found != expected.end());
     if (found == expected.end()) continue;
     const Block& list = index.list(node);
     EXPECT_TRUE(index.holds(&list));
