@@ -144,8 +144,10 @@ nlohmann::json to_json(const Ended& ended) {
 void report(const workload::Geometry& geometry, const std::vector<Selection>& selections, nlohmann::json& rows) {
   fmt::print("{}: {} triangles\n", geometry.name, geometry.triangle_count());
   for (const Selection& s : selections) {
-    fmt::print("  {}: {} lists{}; {} rays, {} occluded\n", s.kernel, s.lists, s.lists == 0 ? " (would not pay)" : "",
-               s.rays, s.occluded);
+    Ended by_lists;
+    for (const Ended& list : s.by_list) by_lists.rays += list.rays;
+    fmt::print("  {}: {} lists{}; {} rays, {} occluded, {:.1f} % of them by lists\n", s.kernel, s.lists,
+               s.lists == 0 ? " (would not pay)" : "", s.rays, s.occluded, share(by_lists, s));
     fmt::print("  {:>7} {:>12} {:>12} {:>12} {:>12}\n", "depth", "by list %", "tests", "by leaf %", "tests");
     for (std::size_t depth = 0; depth < s.by_list.size(); ++depth) {
       const Ended &list = s.by_list[depth], &leaf = s.by_leaf[depth];
@@ -173,8 +175,9 @@ plot::LineChart chart_of(const workload::Geometry& geometry, const std::vector<S
   chart.title = geometry.name + ": where lists end rays";
   chart.width = 960;
   chart.x.title = "depth in the tree";
+  chart.x.low = 0;
   chart.y.title = "occluded rays ended there, %";
-  chart.right.title = "tests a ray (lines)";
+  chart.right.title = "tests a ray";
   for (const Selection& s : selections) {
     plot::Series ended{s.kernel + ": by a list", {}, plot::Mark::bars, false};
     plot::Series leaves{s.kernel + ": by a leaf", {}, plot::Mark::bars, false};
