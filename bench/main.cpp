@@ -21,6 +21,7 @@ constexpr Entry kCommands[] = {
     {"throughput", "Shadow rays per second of every kernel and of Embree, on the same rays", throughput_command},
     {"build", "Build time and memory, against Embree", build_command},
     {"table1", "Tests a ray, time and memory of every kernel in a frame: the table of Liang & Huang (2019)", table1_command},
+    {"depth", "How deep in the tree lists of likely blockers end rays, and at what cost", depth_command},
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/group-inl.h"
+#include "kernels/indexed_walk-inl.h"
 #include "kernels/link_walk-inl.h"
 #include "kernels/tree_kernel-inl.h"
 
@@ -22,7 +23,10 @@ template <class Counts>
 class EachRay {
  public:
   explicit EachRay(FrameTile& tile)
-      : tile_(tile), filter_(tile.scene, tile.rays.mask), links_(linked_view()) {}
+      : tile_(tile),
+        filter_(tile.scene, tile.rays.mask),
+        linked_(with_side(tile.tables.links)),
+        indexed_(with_side(tile.tables.index)) {}
 
   void trace() {
     std::uint16_t order[kMostRays];
@@ -38,9 +42,9 @@ class EachRay {
   }
 
  private:
-  SceneView linked_view() const {
+  SceneView with_side(const SideTable* side) const {
     SceneView view = tile_.scene;
-    view.side = tile_.tables.links;
+    view.side = side;
     return view;
   }
 
@@ -49,13 +53,20 @@ class EachRay {
     if (tile_.rays.skip) filter_.set_skip(tile_.rays.skip[begin + i]);
     Noticed<Counts> counts;
     const RayRoute route = choose(tile_.memory.guess(i));
-    const bool occluded = route == RayRoute::linked
-                              ? TreeKernel<LinkWalk>::occluded(links_, filter_, ray, link_state_, counts)
-                              : TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
+    const bool occluded = walk(route, ray, counts);
     work_.add(i, counts);
     tile_.rays.out[begin + i] = occluded ? 1 : 0;
     work_.set_route(i, route);
     if (occluded) tile_.memory.note_blocker(i, counts.blocker());
+  }
+
+  bool walk(RayRoute route, const Ray& ray, Noticed<Counts>& counts) {
+    if (route == RayRoute::linked) return TreeKernel<LinkWalk>::occluded(linked_, filter_, ray, link_state_, counts);
+    if (route == RayRoute::indexed && IndexedKernel::has_lists(indexed_)) {
+      IndexedKernel::State state(indexed_);
+      return IndexedKernel::occluded(indexed_, filter_, ray, state, counts);
+    }
+    return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
   }
 
   RayRoute choose(Guess guess) const {
@@ -68,8 +79,8 @@ class EachRay {
   FrameTile& tile_;
   GroupWork<Counts> work_;
   Filter filter_;
-  SceneView links_;
-  LinkWalk::State link_state_{links_};
+  SceneView linked_, indexed_;
+  LinkWalk::State link_state_{linked_};
   NoState no_state_{tile_.scene};
 };
 

@@ -3,6 +3,7 @@
 
 #include "frame/tile_memory.h"
 #include "index/links.h"
+#include "index/primitive_index.h"
 #include "index/wide_tree.h"
 #include "kernels/group_rays.h"
 
@@ -12,6 +13,7 @@ namespace umbrix::detail {
 struct FrameTables {
   const WideTree* wide = nullptr;
   const Links* links = nullptr;
+  const PrimitiveIndex* index = nullptr;
 };
 
 /// A tile, what is known of it, and what was done.

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "frame/frame_samples.h"
 
+#include <algorithm>
+#include <cstring>
 #include <new>
 
+#include "index/select_learned.h"
+#include "kernels/indexed.h"
 #include "kernels/walk-inl.h"
 
 namespace umbrix::detail {
@@ -29,20 +33,36 @@ void mark_leaves(const Tree& tree, std::uint32_t node_index, const WalkRay& ray,
 }  // namespace
 
 void FrameSamples::add(const ShadowTile& tile) noexcept try {
-  for (std::size_t i = 0; i < tile.rays.count; i += kEvery) rays_.push_back(tile.rays[i]);
+  for (std::size_t i = 0; i < tile.rays.count; i += kEvery)
+    samples_.push_back({tile.rays[i], tile.skip ? tile.skip[i] : Primitive()});
 } catch (const std::bad_alloc&) {
   // Fewer samples cost time only.
 }
 
 std::vector<bool> FrameSamples::touched_leaves(const Tree& tree) const {
   std::vector<bool> marks(tree.nodes.size());
-  for (const Ray& ray : rays_) {
+  for (const Sample& sample : samples_) {
+    const Ray& ray = sample.ray;
     WalkRay walk_ray;
     if (!is_valid(ray) || HWY_NAMESPACE::prepare(ray, tree, walk_ray) == HWY_NAMESPACE::Reach::far) continue;
     const Interval at = HWY_NAMESPACE::clip_to_root(walk_ray, tree);
     if (at.t0 <= at.t1) mark_leaves(tree, 0, walk_ray, at, marks);
   }
   return marks;
+}
+
+std::unique_ptr<PrimitiveIndex> FrameSamples::learned_index(const SceneView& scene, const Executor* executor) const {
+  // Tiles came in any order: put the rays in one of their own.
+  std::vector<Sample> sorted = samples_;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Sample& a, const Sample& b) { return std::memcmp(&a, &b, sizeof a) < 0; });
+  std::vector<Primitive> skip;
+  for (const Sample& sample : sorted) skip.push_back(sample.skip);
+  const RaySpan rays{&sorted.data()->ray, sorted.size(), sizeof(Sample)};
+  std::vector<std::uint32_t> blockers;
+  for (const Ending& ending : find_endings(scene, rays, skip.data(), executor)) blockers.push_back(ending.blocker);
+  return std::make_unique<PrimitiveIndex>(*scene.tree, scene.triangles,
+                                          select_learned(*scene.tree, {rays, blockers.data()}));
 }
 
 }  // namespace umbrix::detail

@@ -12,6 +12,7 @@
 #include "frame/frame_kernel.h"
 #include "frame/frame_samples.h"
 #include "frame/tile_memory.h"
+#include "index/select_paper.h"
 
 namespace umbrix {
 namespace {
@@ -64,14 +65,20 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
       tables.wide = wide.get();
     }
     if (options.method == FrameMethod::paper || options.method == FrameMethod::linked) make_links(options.links);
+    if (uses_index() && options.index == IndexMode::paper) {
+      index = std::make_unique<detail::PrimitiveIndex>(
+          tree, scene.triangles, detail::select_paper(tree, scene.triangles, scene.kept, scene.kept_count));
+      tables.index = index.get();
+    }
   }
+
+  bool uses_index() const { return options.method == FrameMethod::paper || options.method == FrameMethod::indexed; }
 
   bool remembers() const { return options.method == FrameMethod::best || options.method == FrameMethod::paper; }
 
   bool learns_from_rays() const {
     return (tables.links && options.links == LinkMode::reached) ||
-           ((options.method == FrameMethod::paper || options.method == FrameMethod::indexed) &&
-            options.index == IndexMode::learned);
+           (uses_index() && options.index == IndexMode::learned);
   }
 
   void make_links(LinkMode mode) {
@@ -96,8 +103,15 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
     links->build_reached(lights, samples.touched_leaves(*scene.tree));
   }
 
+  void relearn() {
+    if (!uses_index() || options.index != IndexMode::learned || samples.empty()) return;
+    index = samples.learned_index(scene, options.executor);
+    tables.index = index.get();
+  }
+
   std::uint64_t bytes() const {
-    return (remembers() ? memory.bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0);
+    return (remembers() ? memory.bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0) +
+           (index ? index->bytes() : 0);
   }
 
   detail::SceneView scene;
@@ -106,6 +120,7 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   detail::OcclusionMemory memory;
   std::unique_ptr<detail::WideTree> wide;
   std::unique_ptr<detail::Links> links;
+  std::unique_ptr<detail::PrimitiveIndex> index;
   detail::FrameTables tables;
   detail::FrameSamples samples;
   FrameView view;
@@ -129,6 +144,7 @@ void FrameTracer::Impl::begin(const FrameView& next) {
                jumped(view, next, extent));
   if (stats.cut) memory.forget();
   relink(next);
+  relearn();
   samples.clear();
   view = next;
   view.lights = nullptr;  // the host's, for this call only

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/parallel_for.h"
+#include "index/cells.h"
 
 namespace umbrix::detail {
 namespace {
@@ -27,31 +28,6 @@ std::size_t count_leaves(const Tree& tree) {
 const Box& everywhere() {
   static const Box box{Vec3(-kInfinity), Vec3(kInfinity)};
   return box;
-}
-
-Box half(Box cell, const Node& node, bool high) {
-  const int axis = static_cast<int>(node.axis_bits());
-  (high ? cell.lower : cell.upper)[axis] = node.plane();
-  return cell;
-}
-
-/// Is the node in the low child's subtree? Nodes are numbered depth first, low before high.
-bool is_below_low(const Tree& tree, const Node& parent, std::uint32_t node) {
-  const std::uint32_t low = parent.low_child();
-  if (node <= low + 1) return node == low;
-  const Node& high = tree.nodes[low + 1];
-  return !tree.nodes[low].is_leaf() && (high.is_leaf() || node < high.low_child());
-}
-
-Box cell_of(const Tree& tree, std::uint32_t node) {
-  Box cell = everywhere();
-  for (std::uint32_t at = 0; at != node;) {
-    const Node& parent = tree.nodes[at];
-    const bool high = !is_below_low(tree, parent, node);
-    cell = half(cell, parent, high);
-    at = parent.low_child() + (high ? 1 : 0);
-  }
-  return cell;
 }
 
 /// The side of the plane on which all of the face's outer side lies: 0 low, 1 high, or -1 if the plane cuts it.
@@ -107,7 +83,7 @@ std::uint64_t Links::bytes() const noexcept {
   return leaf_count() * sizeof(LinkedLeaf) + records_.size() * sizeof(records_[0]);
 }
 
-std::uint32_t Links::add(std::uint32_t node) const noexcept { return add(node, cell_of(tree_, node)); }
+std::uint32_t Links::add(std::uint32_t node) const noexcept { return add(node, cell_of(tree_, node, everywhere())); }
 
 std::uint32_t Links::add(std::uint32_t node, const Box& cell) const noexcept {
   if (next_record_.load(std::memory_order_relaxed) >= leaves_.size()) return 0;
@@ -141,7 +117,7 @@ void Links::add_below(std::uint32_t at, const Box& cell) {
     add(at, cell);
     return;
   }
-  for (const bool high : {false, true}) add_below(node.low_child() + (high ? 1 : 0), half(cell, node, high));
+  for (const bool high : {false, true}) add_below(node.low_child() + (high ? 1 : 0), half_cell(cell, node, high));
 }
 
 void Links::find_all(std::uint32_t at, const std::uint32_t (&outside)[kFaces]) {

@@ -10,6 +10,8 @@
 #define UMBRIX_KERNELS(KERNEL) \
   KERNEL(kAutoKernel)          \
   KERNEL(kStandardKernel)      \
+  KERNEL(kIndexedKernel)       \
+  KERNEL(kIndexedPaperKernel)  \
   KERNEL(kLinkedKernel)        \
   KERNEL(kRopesKernel)         \
   KERNEL(kWideKernel)          \

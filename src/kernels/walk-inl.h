@@ -114,11 +114,17 @@ HWY_INLINE Interval clip_to_root(const WalkRay& ray, const Tree& tree) {
           std::min(std::min(ray.tmax + 0x1p-100f, exit[0]), std::min(exit[1], exit[2]))};
 }
 
-/// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0, t1)
-/// returns true to stop. `limit` is read before each subtree: what starts beyond it is left out.
-template <class Leaf, class Counts>
+/// For walks that do nothing at inner nodes.
+struct PassBy {
+  HWY_INLINE bool operator()(std::uint32_t, float) const { return false; }
+};
+
+/// Visits the leaves that the interval crosses below a node, near first, with far children on a stack: leaf(run, t0,
+/// t1) returns true to stop, and so may inner(node, t0), called for each inner node entered. `limit` is read before
+/// each subtree: what starts beyond it is left out.
+template <class Leaf, class Counts, class Inner = PassBy>
 HWY_INLINE bool stack_walk(const Tree& tree, std::uint32_t index, Interval at, const WalkRay& ray, const float& limit,
-                           Leaf&& leaf, Counts& counts) {
+                           Leaf&& leaf, Counts& counts, const Inner& inner = Inner()) {
   struct Pending {
     std::uint32_t node;
     float t1;
@@ -131,6 +137,7 @@ HWY_INLINE bool stack_walk(const Tree& tree, std::uint32_t index, Interval at, c
     Node node = nodes[index];
     counts.node();
     while (!node.is_leaf()) {
+      if (inner(index, at.t0)) return true;
       const std::uint32_t axis = node.axis_bits();
       const float t = plane_time(ray, node.plane(), axis);
       const std::uint32_t near = node.low_child() + ray.far_low[axis];
