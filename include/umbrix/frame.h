@@ -54,8 +54,10 @@ struct FrameOptions {
   PredictorKey key = PredictorKey::object;
   PredictorRule rule = PredictorRule::counter;
   std::uint32_t region = 8;          ///< pixels along a side, for PredictorKey::screen
-  float cell = 1.0f / 256;           ///< of the scene's largest extent, for PredictorKey::object
-  std::uint32_t slots = 1u << 15;    ///< remembered places, a power of two, 16 bytes each; places share them by a hash
+  /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles.
+  float cell = 0;
+  /// Remembered places, a power of two, 16 bytes each, which places share by a hash; 0: one or two a triangle.
+  std::uint32_t slots = 0;
   LinkMode links = LinkMode::lazy;   ///< for FrameMethod::paper and linked
   IndexMode index = IndexMode::learned;  ///< for FrameMethod::paper and indexed
   bool count_work = false;           ///< fill FrameStats::counts; slower
@@ -148,8 +150,8 @@ class UMBRIX_API FrameTracer {
   FrameTracer(const FrameTracer&) = delete;
   FrameTracer& operator=(const FrameTracer&) = delete;
 
-  /// Binds it to a scene and forgets all. invalid_argument: a scene that is not committed, `slots` that are no power of
-  /// two from 2 to 2^28, a cell or region that is not positive. resource_limit: no memory.
+  /// Binds it to a scene and forgets all. invalid_argument: a scene that is not committed, `slots` that are neither
+  /// 0 nor a power of two from 8 to 2^28, a negative cell, a region of 0. resource_limit: no memory.
   Status start(const Scene& scene, const FrameOptions& options = {});
 
   /// Frames have any numbers; gaps and steps back are cuts. invalid_argument: not started, or within a frame.

@@ -22,12 +22,26 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 Status check(const FrameOptions& options) {
-  if (options.slots < 2 || options.slots > 1u << 28 || (options.slots & (options.slots - 1)) != 0)
-    return {StatusCode::invalid_argument, "frame tracer: slots must be a power of two from 2 to 2^28"};
-  if (!(options.cell > 0) || options.region == 0)
-    return {StatusCode::invalid_argument, "frame tracer: cell and region must be positive"};
+  const bool is_power = options.slots >= 8 && options.slots <= 1u << 28 && (options.slots & (options.slots - 1)) == 0;
+  if (options.slots != 0 && !is_power)
+    return {StatusCode::invalid_argument, "frame tracer: slots must be 0 or a power of two from 8 to 2^28"};
+  if (!(options.cell >= 0) || options.region == 0)
+    return {StatusCode::invalid_argument, "frame tracer: the cell must not be negative, nor the region 0"};
   return {};
 }
+
+/// More than a screen has regions, few enough to stay in the cache.
+constexpr std::uint32_t kRegionSlots = 1u << 15;
+
+/// The power of two that is one to two times the triangles, within reason.
+std::uint32_t slots_for(std::size_t triangles) {
+  std::uint32_t slots = 1u << 12;
+  while (slots < 1u << 22 && slots < triangles) slots *= 2;
+  return slots;
+}
+
+/// A triangle's share of the scene's extent, if they tiled a square of it.
+double cell_for(std::size_t triangles) { return 1 / std::clamp(std::sqrt(static_cast<double>(triangles)), 64.0, 4096.0); }
 
 /// Of the views of two frames: did the camera jump by a tenth of the scene, or turn by more than a quarter of a right
 /// angle?
@@ -56,10 +70,16 @@ void add(Confusion& sum, const Confusion& part) {
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   Impl(const detail::SceneView& the_scene, const FrameOptions& the_options)
-      : scene(the_scene), options(the_options), memory(the_options.slots) {
+      : scene(the_scene),
+        options(the_options) {
     const detail::Tree& tree = *scene.tree;
     extent = std::ldexp(static_cast<double>(tree.root.largest_extent()), -tree.scale_exponent);
     if (!(extent > 0) || !std::isfinite(extent)) extent = 1;
+    cell_size = extent * (options.cell > 0 ? static_cast<double>(options.cell) : cell_for(scene.kept_count));
+    if (remembers()) {
+      regions.emplace(kRegionSlots);
+      choose_memory(true);
+    }
     if (options.method == FrameMethod::best || options.method == FrameMethod::beam) {
       wide = std::make_unique<detail::WideTree>(tree, scene.triangles);
       tables.wide = wide.get();
@@ -79,6 +99,24 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   bool learns_from_rays() const {
     return (tables.links && options.links == LinkMode::reached) ||
            (uses_index() && options.index == IndexMode::learned);
+  }
+
+  /// By cells, either a few rays go by one that holds many triangles, or each by one of its own. Where what blocked the
+  /// last ray mostly blocks the next one, the former will do and costs less time; among leaves of trees it will not. The
+  /// first frame learns for both.
+  void choose_memory(bool is_first) {
+    use = {&*regions};
+    if (options.key == PredictorKey::screen) return;
+    const bool by_points = 20 * stats.cache_hits < 9 * stats.cache_tries;
+    if (is_first) {
+      points.emplace(options.slots != 0 ? options.slots : slots_for(scene.kept_count));
+      use = {&*points, &*regions, 1, 0, 1, true};
+    } else if (by_points && points) {
+      use = {&*points, nullptr, 1, 0, 0, true};
+    } else {
+      points.reset();
+      use = {&*regions, nullptr, 16, 1};
+    }
   }
 
   void make_links(LinkMode mode) {
@@ -110,14 +148,17 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   }
 
   std::uint64_t bytes() const {
-    return (remembers() ? memory.bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0) +
+    return (regions ? regions->bytes() : 0) + (points ? points->bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0) +
            (index ? index->bytes() : 0);
   }
 
   detail::SceneView scene;
   FrameOptions options;
   double extent = 1;
-  detail::OcclusionMemory memory;
+  double cell_size = 1;
+  std::optional<detail::OcclusionMemory> regions;  ///< by regions of the image, or by cells of space
+  std::optional<detail::OcclusionMemory> points;   ///< by cells that are about a triangle large
+  detail::MemoryUse use;
   std::unique_ptr<detail::WideTree> wide;
   std::unique_ptr<detail::Links> links;
   std::unique_ptr<detail::PrimitiveIndex> index;
@@ -142,7 +183,7 @@ void FrameTracer::Impl::begin(const FrameView& next) {
   stats.cut = any_frame && options.key == PredictorKey::screen &&
               (next.frame != view.frame + 1 || next.width != view.width || next.height != view.height ||
                jumped(view, next, extent));
-  if (stats.cut) memory.forget();
+  if (stats.cut) regions->forget();
   relink(next);
   relearn();
   samples.clear();
@@ -153,8 +194,8 @@ void FrameTracer::Impl::begin(const FrameView& next) {
 }
 
 void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
-  const detail::PlaceFinder places(options, view.frame, extent);
-  detail::TileMemory tile_memory(memory, places, tile.light, tile.pixels, remembers());
+  const detail::PlaceFinder places(options, view.frame, cell_size);
+  detail::TileMemory tile_memory(use, places, tile.light, tile.pixels);
   std::optional<detail::WorkSums> sums;
   if (options.count_work) sums.emplace();
   std::uint64_t routes[kRayRoutes] = {};
@@ -184,8 +225,10 @@ void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
 
 FrameStats FrameTracer::Impl::end() {
   const auto start = Clock::now();
-  if (remembers()) memory.next_frame();
   in_frame = false;
+  if (regions) regions->next_frame();
+  if (points) points->next_frame();
+  if (remembers()) choose_memory(false);
   stats.precompute_seconds += seconds_since(start);
   stats.bytes = bytes();
   return stats;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "frame/occlusion_memory.h"
@@ -9,42 +10,28 @@
 
 namespace umbrix::detail {
 
-/// Where a ray belongs: a light, and a region of the image or a cell of space.
+/// Where a ray belongs: a cell of space, or a region of the image in x and y.
 struct Place {
-  std::uint32_t light = 0;
   std::int32_t x = 0, y = 0, z = 0;
 
-  friend bool operator==(const Place& a, const Place& b) noexcept {
-    return a.light == b.light && a.x == b.x && a.y == b.y && a.z == b.z;
-  }
-  /// Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators": the finaliser, on a sum of multiples.
-  std::uint64_t key() const noexcept {
-    std::uint64_t h = light * 0x9E3779B97F4A7C15u + static_cast<std::uint32_t>(x) * 0xC2B2AE3D27D4EB4Fu +
-                      static_cast<std::uint32_t>(y) * 0x165667B19E3779F9u +
-                      static_cast<std::uint32_t>(z) * 0xD6E8FEB86659FD93u;
-    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
-    return h ^ (h >> 27);
-  }
+  friend bool operator==(const Place& a, const Place& b) noexcept { return a.x == b.x && a.y == b.y && a.z == b.z; }
 };
 
 /// Tells where rays belong.
 class PlaceFinder {
  public:
-  PlaceFinder(const FrameOptions& options, std::int64_t frame, double extent)
-      : options_(options),
-        frame_(static_cast<std::uint64_t>(frame)),
-        inverse_cell_(static_cast<float>(1 / (extent * static_cast<double>(options.cell)))) {}
+  PlaceFinder(const FrameOptions& options, std::int64_t frame, double cell_size)
+      : options_(options), frame_(static_cast<std::uint64_t>(frame)), inverse_cell_(static_cast<float>(1 / cell_size)) {}
 
-  std::uint32_t together() const noexcept { return options_.region; }
   PredictorRule rule() const noexcept { return options_.rule; }
   bool needs_pixels() const noexcept { return options_.key == PredictorKey::screen; }
 
-  Place find(std::uint32_t light, const Ray& ray, const Pixel* pixel) const noexcept {
+  Place find(const Ray& ray, const Pixel* pixel) const noexcept {
     if (needs_pixels()) {
       const std::uint32_t n = options_.region;
-      return {light, static_cast<std::int32_t>(pixel->x / n), static_cast<std::int32_t>(pixel->y / n), 0};
+      return {static_cast<std::int32_t>(pixel->x / n), static_cast<std::int32_t>(pixel->y / n), 0};
     }
-    return {light, cell(ray.origin[0]), cell(ray.origin[1]), cell(ray.origin[2])};
+    return {cell(ray.origin[0]), cell(ray.origin[1]), cell(ray.origin[2])};
   }
 
   bool takes_samples() const noexcept { return options_.rule == PredictorRule::sample; }
@@ -58,10 +45,9 @@ class PlaceFinder {
   }
 
  private:
-  /// Cells on both sides of zero are one, and far outside of the scene all are: that costs predictions only.
+  /// Cells on both sides of zero are one, and those far outside of the scene too: that costs predictions only.
   std::int32_t cell(float x) const noexcept {
-    const float at = x * inverse_cell_;
-    return at > -0x1p30f && at < 0x1p30f ? static_cast<std::int32_t>(at) : 0;
+    return static_cast<std::int32_t>(std::min(std::max(x * inverse_cell_, -0x1p30f), 0x1p30f));
   }
 
   FrameOptions options_;
@@ -69,35 +55,42 @@ class PlaceFinder {
   float inverse_cell_;
 };
 
+/// Which memory a frame's rays use, and how.
+struct MemoryUse {
+  const OcclusionMemory* memory = nullptr;  ///< null: nothing is known, nothing is learned
+  const OcclusionMemory* also = nullptr;    ///< learns too, with `also_coarser`
+  std::uint32_t together = 1;               ///< so many rays, one after the other, go by the place of the first
+  std::uint32_t coarser = 0;                ///< places are larger by two to this power
+  std::uint32_t also_coarser = 0;
+  bool only_occluded = false;  ///< where every ray has its own place, only those that are blocked are worth the room
+};
+
 /// What a group knows of its rays from the last frame, and where it puts what it learns. For one tile. Neighbours mostly
 /// belong to one place, so the memory is asked and told only where that changes.
 class TileMemory {
  public:
-  /// `pixels` may be null. With `remembers` false it knows nothing and learns nothing.
-  TileMemory(const OcclusionMemory& memory, const PlaceFinder& places, std::uint32_t light, const Pixel* pixels,
-             bool remembers)
-      : memory_(memory),
+  /// `pixels` may be null.
+  TileMemory(const MemoryUse& use, const PlaceFinder& places, std::uint32_t light, const Pixel* pixels)
+      : use_(use),
         places_(places),
         light_(light),
         pixels_(pixels),
-        remembers_(remembers && (pixels || !places.needs_pixels())) {}
+        remembers_(use.memory && (pixels || !places.needs_pixels())) {}
 
   void place(const GroupRays& rays, std::size_t begin, const std::uint16_t* order, std::uint32_t count) noexcept {
     begin_ = begin;
     known_count_ = 0;
-    Place place;
-    for (std::uint32_t k = 0; k < count && remembers_; ++k) {
+    if (!remembers_) return;
+    for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint16_t i = order[k];
-      // Cells are larger than the spacing of rays: a few neighbours go by the first of them.
-      if (places_.needs_pixels() || k % places_.together() == 0) {
-        const Place here = places_.find(light_, rays.rays[begin + i], pixel(i));
-        if (known_count_ == 0 || !(here == place)) {
-          place = here;
-          recall(place);
-        }
+      if (k % use_.together == 0) {
+        const Place here = places_.find(rays.rays[begin + i], pixel(i));
+        if (known_count_ == 0 || !(here == known_[known_count_ - 1].place)) begin_place(here);
       }
       known_of_[i] = static_cast<std::uint16_t>(known_count_ - 1);
     }
+    // The memory is large and its parts are far from each other: all were asked for before the first is looked at.
+    for (std::uint32_t k = 0; k < known_count_; ++k) recall(known_[k]);
   }
 
   Guess guess(std::uint32_t i) const noexcept { return remembers_ ? known_[known_of_[i]].guess : Guess::unknown; }
@@ -139,7 +132,9 @@ class TileMemory {
                                                                     : confusion_.not_predicted;
       for (const int occluded : {0, 1}) row[occluded] += known.outcomes[occluded];
       const std::uint32_t* const seen = places_.takes_samples() ? known.seen : known.outcomes;
-      if (seen[0] + seen[1] > 0) memory_.learn(known.slot, Memory(seen[1], seen[0], known.seen_blocker - 1u));
+      const Memory memory(seen[1], seen[0], known.seen_blocker - 1u);
+      if (seen[1] > 0 || (seen[0] > 0 && !use_.only_occluded)) use_.memory->learn(known.slot, memory);
+      if (use_.also && seen[0] + seen[1] > 0) use_.also->learn(slot(*use_.also, known.place, use_.also_coarser), memory);
     }
     known_count_ = 0;
   }
@@ -148,6 +143,7 @@ class TileMemory {
 
  private:
   struct Known {
+    Place place;
     std::uint32_t slot;
     std::uint32_t blocker;
     Guess guess;
@@ -156,12 +152,20 @@ class TileMemory {
     std::uint32_t seen[2];       ///< of these, the samples, by PredictorRule::sample
     std::uint32_t seen_blocker;  ///< plus one
   };
-  static constexpr std::uint32_t kTogether = 1;
 
-  void recall(const Place& place) noexcept {
+  std::uint32_t slot(const OcclusionMemory& memory, const Place& place, std::uint32_t coarser) const noexcept {
+    return memory.slot(place.x >> coarser, place.y >> coarser, place.z >> coarser, light_);
+  }
+
+  void begin_place(const Place& place) noexcept {
     Known& known = known_[known_count_++];
-    known.slot = memory_.slot(place.key());
-    const Memory last = memory_.last(known.slot);
+    known.place = place;
+    known.slot = slot(*use_.memory, place, use_.coarser);
+    use_.memory->prefetch(known.slot);
+  }
+
+  void recall(Known& known) noexcept {
+    const Memory last = use_.memory->last(known.slot);
     known.guess = detail::guess(last, places_.rule());
     known.is_sure = last.counter() == 3;
     known.blocker = last.blocker();
@@ -170,7 +174,7 @@ class TileMemory {
 
   const Pixel* pixel(std::uint32_t i) const noexcept { return pixels_ ? pixels_ + begin_ + i : nullptr; }
 
-  const OcclusionMemory& memory_;
+  const MemoryUse& use_;
   const PlaceFinder& places_;
   std::uint32_t light_;
   const Pixel* pixels_;

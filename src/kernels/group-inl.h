@@ -104,7 +104,7 @@ class Group {
       const std::uint32_t blocker = memory_.sure_blocker(i);
       tried_[i] = blocker != Primitive::kNone && candidates_pay();
       if (tried_[i]) {
-        recent_.add(blocker);
+            recent_.add(blocker);
         Noticed<Counts> counts;
         const bool blocked = meets_candidates(i, counts);
         work_.add(i, counts);
@@ -215,8 +215,8 @@ class Group {
       choose_skip(i);
       const Ray& ray = rays_.rays[begin_ + i];
       const Segment& segment = segments_[i];
-      const LeafTest test(segment.ray);
       const auto leaf = [&](BlockRun run, float, float t1) {
+        const LeafTest test(segment.ray);  // many rays come to no leaf
         return leaf_blocks(scene_, filter_, ray, test, segment.ray, run, t1, counts);
       };
       occluded = walk(segment, leaf, counts);
