@@ -68,7 +68,7 @@ Box part_bounds(const Triangle& triangle, const Box& cell, float eps) {
   const Box around = grown(cell, eps);
   const Vec3 inside = glm::min(box.upper, around.upper) - glm::max(box.lower, around.lower);
   const Vec3 all = box.extent();
-  const bool is_large = all.x > 2 * inside.x || all.y > 2 * inside.y || all.z > 2 * inside.z;
+  const bool is_large = all.x > 8 * inside.x || all.y > 8 * inside.y || all.z > 8 * inside.z;
   if (is_large) return clipped_bounds(triangle, cell, static_cast<double>(eps));
   return {glm::max(box.lower, around.lower), glm::min(box.upper, around.upper)};
 }
