@@ -85,6 +85,44 @@ TEST(FrameStatistics, SumsAddUp) {
   }
 }
 
+/// The routes of a frame's rays.
+std::vector<std::uint64_t> routes_of(const FrameTracer& tracer, const std::vector<Ray>& rays) {
+  std::vector<RayRoute> routes(rays.size());
+  Handover how;
+  how.routes = routes.data();
+  trace(tracer, rays, how);
+  std::vector<std::uint64_t> counts(kRayRoutes);
+  for (const RayRoute route : routes) ++counts[static_cast<std::size_t>(route)];
+  return counts;
+}
+
+TEST(FrameStatistics, RoutesSayHowRaysWereAnswered) {
+  const Hall hall;
+  std::vector<Ray> rays = hall.rays();
+  for (std::size_t i = 0; i < rays.size(); i += 10) rays[i].tmin = rays[i].tmax;
+  const std::uint64_t invalid = (rays.size() + 9) / 10, valid = rays.size() - invalid;
+  const auto expect = [&](FrameMethod method, std::int64_t frames, const std::vector<std::uint64_t>& expected) {
+    FrameOptions options;
+    options.method = method;
+    SCOPED_TRACE(describe(options));
+    FrameTracer tracer;
+    ASSERT_TRUE(tracer.start(hall.scene, options).ok());
+    std::vector<std::uint64_t> routes;
+    for (std::int64_t frame = 0; frame < frames; ++frame) {
+      ASSERT_TRUE(tracer.begin_frame(numbered(frame)).ok());
+      routes = routes_of(tracer, rays);
+      tracer.end_frame();
+    }
+    EXPECT_EQ(routes, expected);
+  };
+  // In the order of RayRoute: cached, beam, indexed, linked, other.
+  expect(FrameMethod::beam, 1, {0, valid, 0, 0, invalid});
+  expect(FrameMethod::linked, 1, {0, 0, 0, valid, invalid});
+  expect(FrameMethod::standard, 1, {0, 0, 0, 0, rays.size()});
+  expect(FrameMethod::paper, 1, {0, 0, 0, valid, invalid});    // nothing is guessed to be occluded yet
+  expect(FrameMethod::indexed, 1, {0, 0, 0, 0, rays.size()});  // nothing is learned yet: the stack
+}
+
 TEST(FrameStatistics, EachRayIsCountedOnce) {
   const Hall hall;
   const std::vector<Ray> rays = hall.rays();
