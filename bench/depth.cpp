@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -193,14 +192,6 @@ plot::LineChart chart_of(const workload::Geometry& geometry, const std::vector<S
   return chart;
 }
 
-// Of several scenes, each has a chart of its own: name.svg becomes name-scene.svg.
-std::string chart_path(const Settings& settings, const std::string& scene) {
-  if (settings.scenes.size() == 1) return settings.svg;
-  std::filesystem::path path(settings.svg);
-  path.replace_filename(fmt::format("{}-{}{}", path.stem().string(), scene, path.extension().string()));
-  return path.string();
-}
-
 Status measure(const Settings& settings, const std::string& path, nlohmann::json& rows) {
   workload::Geometry geometry;
   if (Status status = workload::load_geometry(path, geometry); !status) return status;
@@ -216,7 +207,8 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
   }
   report(geometry, selections, rows);
   if (settings.svg.empty()) return {};
-  return plot::write_svg(chart_path(settings, geometry.name), chart_of(geometry, selections), true);
+  return plot::write_svg(chart_path(settings.svg, geometry.name, settings.scenes.size()),
+                         chart_of(geometry, selections), true);
 }
 
 ExitCode run(const Settings& settings) {

@@ -20,8 +20,10 @@ constexpr Entry kCommands[] = {
     {"stress", "Judge every kernel, and Embree, on hard rays by exact arithmetic", stress_command},
     {"throughput", "Shadow rays per second of every kernel and of Embree, on the same rays", throughput_command},
     {"build", "Build time and memory, against Embree", build_command},
-    {"table1", "Tests a ray, time and memory of every kernel in a frame: the table of Liang & Huang (2019)", table1_command},
+    {"table1", "Tests a ray, time and memory of every kernel in a frame: the table of Liang & Huang (2019)",
+     table1_command},
     {"depth", "How deep in the tree lists of likely blockers end rays, and at what cost", depth_command},
+    {"predictor", "How often a frame tracer guesses right, over the size of its regions and cells", predictor_command},
 };
 
 }  // namespace

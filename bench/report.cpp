@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "umbrix/io/image_file.h"
 
@@ -37,6 +38,13 @@ ExitCode write_json(const std::string& path, const nlohmann::json& report) {
   if (path.empty()) return kDone;
   const Status status = io::write_text(path, report.dump(1) + "\n", true);
   return status ? kDone : fail(status);
+}
+
+std::string chart_path(const std::string& path, const std::string& scene, std::size_t scene_count) {
+  if (scene_count == 1) return path;
+  std::filesystem::path result(path);
+  result.replace_filename(fmt::format("{}-{}{}", result.stem().string(), scene, result.extension().string()));
+  return result.string();
 }
 
 double median(std::vector<double> values) {

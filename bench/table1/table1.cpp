@@ -5,12 +5,12 @@
 // are shown.
 #include <fmt/core.h>
 
-#include <cmath>
 #include <memory>
 
 #include "command.h"
 #include "report.h"
 #include "table1/contestant.h"
+#include "table1/moving_camera.h"
 #include "table1/table1_report.h"
 #include "workload/disputes.h"
 #include "workload/geometry.h"
@@ -24,34 +24,14 @@ struct Settings {
   std::string setup, json, csv;
   std::string light = "0";
   int size = 1024;
-  int frames = 2;
   int rounds = 3;
-  double motion = 0.01;
+  CameraMotion motion;
 };
-
-double diagonal(const Scene& scene) {
-  float lower[3], upper[3];
-  if (!scene.bounds(lower, upper)) return 0;
-  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
-}
-
-// The camera moves along its right axis, by `motion` of the scene's diagonal a frame; the setup's place is the last.
-Frames make_frames(const Settings& settings, const Scene& scene, const workload::Geometry& geometry,
-                   const workload::Viewpoint& viewpoint, const io::Light& light) {
-  Frames frames;
-  for (int i = 0; i < settings.frames; ++i) {
-    io::Camera camera = viewpoint.camera;
-    const double step = settings.motion * diagonal(scene) * (settings.frames - 1 - i);
-    for (auto& row : camera.to_world) row[3] -= step * row[0];
-    frames.push_back(workload::tiled_shadow_rays(scene, geometry, camera, light, settings.size));
-  }
-  return frames;
-}
 
 Status measure_light(const Settings& settings, Scene& scene, const workload::Geometry& geometry,
                      const workload::Viewpoint& viewpoint, std::size_t light_index, std::vector<TableRow>& rows) {
   const io::Light& light = viewpoint.lights[light_index];
-  const Frames frames = make_frames(settings, scene, geometry, viewpoint, light);
+  const Frames frames = moving_camera_frames(scene, geometry, viewpoint.camera, light, settings.size, settings.motion);
   std::vector<std::unique_ptr<Contestant>> contestants;
   if (Status status = make_contestants(settings.kernels, contestants); !status) return status;
   float position[1][3];
@@ -107,7 +87,7 @@ Status measure(const Settings& settings, const std::string& path, std::vector<Ta
 
 ExitCode run(const Settings& settings) {
   fmt::print("Umbrix {} ({}), one thread, {} rounds, frame {} of a camera that moves by {} of the diagonal a frame\n",
-             version_string(), simd_target_name(0), settings.rounds, settings.frames, settings.motion);
+             version_string(), simd_target_name(0), settings.rounds, settings.motion.frames, settings.motion.step);
   std::vector<TableRow> rows;
   for (const std::string& path : settings.scenes) {
     if (const Status status = measure(settings, path, rows); !status) return fail(status);
@@ -126,15 +106,16 @@ std::function<ExitCode()> table1_command(CLI::App& app) {
   auto settings = std::make_shared<Settings>();
   const auto is_light = CLI::Validator(
       [](const std::string& text) {
-        const bool number = !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+        const bool number =
+            !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
         return number || text == "all" ? std::string() : "'" + text + "' is neither a number nor 'all'";
       },
       "N|all");
   app.add_option("scene", settings->scenes, "glTF files")->required();
   app.add_option("--setup", settings->setup, "Camera and lights from this file");
   app.add_option("--size", settings->size, "Primary rays in each direction")->check(CLI::Range(1, 1 << 14));
-  app.add_option("--frames", settings->frames, "Frames; the last one is counted")->check(CLI::Range(1, 1000));
-  app.add_option("--motion", settings->motion, "What the camera moves a frame, in scene diagonals")
+  app.add_option("--frames", settings->motion.frames, "Frames; the last one is counted")->check(CLI::Range(1, 1000));
+  app.add_option("--motion", settings->motion.step, "What the camera moves a frame, in scene diagonals")
       ->check(CLI::Range(0.0, 10.0));
   app.add_option("--rounds", settings->rounds, "Timed runs of each kernel")->check(CLI::Range(1, 1000));
   app.add_option("--light", settings->light, "Which light, counted from 0, or all")->check(is_light);

@@ -52,7 +52,7 @@ class EachRay {
     const Ray& ray = tile_.rays.rays[begin + i];
     if (tile_.rays.skip) filter_.set_skip(tile_.rays.skip[begin + i]);
     Noticed<Counts> counts;
-    const RayRoute route = choose(tile_.memory.guess(i));
+    const RayRoute route = choose(ray, tile_.memory.guess(i));
     const bool occluded = walk(route, ray, counts);
     work_.add(i, counts);
     tile_.rays.out[begin + i] = occluded ? 1 : 0;
@@ -62,18 +62,19 @@ class EachRay {
 
   bool walk(RayRoute route, const Ray& ray, Noticed<Counts>& counts) {
     if (route == RayRoute::linked) return TreeKernel<LinkWalk>::occluded(linked_, filter_, ray, link_state_, counts);
-    if (route == RayRoute::indexed && IndexedKernel::has_lists(indexed_)) {
+    if (route == RayRoute::indexed) {
       IndexedKernel::State state(indexed_);
       return IndexedKernel::occluded(indexed_, filter_, ray, state, counts);
     }
     return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
   }
 
-  RayRoute choose(Guess guess) const {
-    if (tile_.method == FrameMethod::linked) return RayRoute::linked;
-    if (tile_.method == FrameMethod::indexed) return RayRoute::indexed;
-    if (tile_.method == FrameMethod::paper) return guess == Guess::occluded ? RayRoute::indexed : RayRoute::linked;
-    return RayRoute::other;
+  RayRoute choose(const Ray& ray, Guess guess) const {
+    if (!is_valid(ray)) return RayRoute::other;
+    const bool is_paper = tile_.method == FrameMethod::paper;
+    if (tile_.method == FrameMethod::indexed || (is_paper && guess == Guess::occluded))
+      return IndexedKernel::has_lists(indexed_) ? RayRoute::indexed : RayRoute::other;
+    return tile_.method == FrameMethod::linked || is_paper ? RayRoute::linked : RayRoute::other;
   }
 
   FrameTile& tile_;

@@ -75,10 +75,6 @@ void for_each_neighbour(const Tree& tree, std::uint32_t from, const float (&face
 Links::Links(const Tree& tree, LinkBuilder builder)
     : tree_(tree), builder_(builder), leaves_(count_leaves(tree) + 1 + kSpareRecords), records_(tree.nodes.size()) {}
 
-std::uint32_t Links::leaf_count() const noexcept {
-  return std::min(next_record_.load(std::memory_order_relaxed), static_cast<std::uint32_t>(leaves_.size())) - 1;
-}
-
 std::uint64_t Links::bytes() const noexcept {
   return leaf_count() * sizeof(LinkedLeaf) + records_.size() * sizeof(records_[0]);
 }
@@ -99,7 +95,9 @@ std::uint32_t Links::add(std::uint32_t node, const Box& cell) const noexcept {
   // If another thread was first, its record counts and this one stays unused.
   std::uint32_t first = 0;
   const bool added = records_[node].compare_exchange_strong(first, record, std::memory_order_acq_rel);
-  return added ? record : first;
+  if (!added) return first;
+  leaf_count_.fetch_add(1, std::memory_order_relaxed);
+  return record;
 }
 
 Link Links::find(const LinkedLeaf& leaf, std::uint32_t face) const noexcept {

@@ -57,7 +57,7 @@ class Links : public SideTable {
   std::uint64_t bytes() const noexcept override;
 
   /// Leaves that have a record. Records are numbered from 1.
-  std::uint32_t leaf_count() const noexcept;
+  std::uint32_t leaf_count() const noexcept { return leaf_count_.load(std::memory_order_relaxed); }
   const LinkedLeaf& leaf(std::uint32_t record) const noexcept { return leaves_[record]; }
 
   /// The record of a leaf node, made if the links are lazy; 0 if there is none.
@@ -92,6 +92,7 @@ class Links : public SideTable {
   LazyArray<LinkedLeaf> leaves_;                  ///< by record
   LazyArray<std::atomic<std::uint32_t>> records_;  ///< by node
   mutable std::atomic<std::uint32_t> next_record_{1};
+  mutable std::atomic<std::uint32_t> leaf_count_{0};  ///< without records that two threads made of one leaf
 };
 
 }  // namespace umbrix::detail
