@@ -56,7 +56,7 @@ class EachRay {
     const bool occluded = walk(route, ray, counts);
     work_.add(i, counts);
     tile_.rays.out[begin + i] = occluded ? 1 : 0;
-    work_.set_route(i, route);
+    work_.set_route(i, counts.is_far ? RayRoute::other : route);
     if (occluded) tile_.memory.note_blocker(i, counts.blocker());
   }
 

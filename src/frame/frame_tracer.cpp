@@ -184,18 +184,19 @@ void FrameTracer::Impl::begin(const FrameView& next) {
               (next.frame != view.frame + 1 || next.width != view.width || next.height != view.height ||
                jumped(view, next, extent));
   if (stats.cut) regions->forget();
+  view = next;
+  view.lights = nullptr;  // the host's, for this call only
+  any_frame = in_frame = true;  // also if what follows finds no memory
   relink(next);
   relearn();
   samples.clear();
-  view = next;
-  view.lights = nullptr;  // the host's, for this call only
-  any_frame = in_frame = true;
   stats.precompute_seconds = seconds_since(start);
 }
 
 void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
   const detail::PlaceFinder places(options, view.frame, cell_size);
-  detail::TileMemory tile_memory(use, places, tile.light, tile.pixels);
+  const detail::MemoryUse used = in_frame ? use : detail::MemoryUse();
+  detail::TileMemory tile_memory(used, places, tile.light, tile.pixels);
   std::optional<detail::WorkSums> sums;
   if (options.count_work) sums.emplace();
   std::uint64_t routes[kRayRoutes] = {};

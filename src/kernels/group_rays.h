@@ -89,12 +89,17 @@ class GroupWork {
   NoCounts none_;
 };
 
-/// An observer that also notes which triangle blocked the ray.
+/// An observer that also notes which triangle blocked the ray, and whether the ray was too far for any walk but one.
 template <class Counts>
 struct Noticed : Counts {
   const Block* block = nullptr;
   std::uint32_t lane = 0;
+  bool is_far = false;
 
+  void far_ray() noexcept {
+    is_far = true;
+    Counts::far_ray();
+  }
   bool blocked_by(const Block& the_block, std::uint32_t the_lane) noexcept {
     block = &the_block;
     lane = the_lane;
