@@ -81,19 +81,20 @@ class TileMemory {
     begin_ = begin;
     known_count_ = 0;
     if (!remembers_) return;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint16_t i = order[k];
-      if (k % use_.together == 0) {
-        const Place here = places_.find(rays.rays[begin + i], pixel(i));
-        if (known_count_ == 0 || !(here == known_[known_count_ - 1].place)) begin_place(here);
-      }
-      known_of_[i] = static_cast<std::uint16_t>(known_count_ - 1);
+    for (std::uint32_t k = 0; k < count;) {
+      const Place here = places_.find(rays.rays[begin + order[k]], pixel(order[k]));
+      if (known_count_ == 0 || !(here == known_[known_count_ - 1].place)) begin_place(here);
+      const auto known = static_cast<std::uint16_t>(known_count_ - 1);
+      for (const std::uint32_t end = std::min(count, k + use_.together); k < end; ++k) known_of_[order[k]] = known;
     }
     // The memory is large and its parts are far from each other: all were asked for before the first is looked at.
     for (std::uint32_t k = 0; k < known_count_; ++k) recall(known_[k]);
   }
 
   Guess guess(std::uint32_t i) const noexcept { return remembers_ ? known_[known_of_[i]].guess : Guess::unknown; }
+
+  /// Is what is known of each ray by itself, or of those around it as well?
+  bool is_by_ray() const noexcept { return use_.only_occluded; }
 
   /// What blocked most rays there, where all were blocked; else Primitive::kNone.
   std::uint32_t sure_blocker(std::uint32_t i) const noexcept {
@@ -114,16 +115,15 @@ class TileMemory {
   void learn(const std::uint8_t* out, const std::uint16_t* order, std::uint32_t count) noexcept {
     if (!remembers_) return;
     for (std::uint32_t k = 0; k < count;) {
-      // The rays of one place follow each other.
       Known& known = known_[known_of_[order[k]]];
-      std::uint32_t rays = 0, occluded = 0;
-      for (; k < count && &known_[known_of_[order[k]]] == &known; ++k, ++rays) {
-        const std::uint32_t answer = out[begin_ + order[k]];
-        occluded += answer;
-        if (places_.takes_samples() && places_.is_sample(pixel(order[k]))) ++known.seen[answer];
-      }
-      known.outcomes[0] += rays - occluded;
+      const std::uint32_t end = std::min(count, k + use_.together);
+      std::uint32_t occluded = 0;
+      for (std::uint32_t j = k; j < end; ++j) occluded += out[begin_ + order[j]];
+      known.outcomes[0] += end - k - occluded;
       known.outcomes[1] += occluded;
+      for (std::uint32_t j = k; j < end && places_.takes_samples(); ++j)
+        if (places_.is_sample(pixel(order[j]))) ++known.seen[out[begin_ + order[j]]];
+      k = end;
     }
     for (std::uint32_t k = 0; k < known_count_; ++k) {
       const Known& known = known_[k];

@@ -7,6 +7,8 @@
 // A memory says what is known of a ray from before this call. It has
 //   void place(rays, begin, order, count);      finds where the rays belong that `order` names, from `begin` on
 //   Guess guess(i);  std::uint32_t blocker(i);  what is known there
+//   std::uint32_t sure_blocker(i);              the same, if all rays there were blocked
+//   bool is_by_ray();                           is it of each ray, or of the rays around as well?
 //   void note_blocker(i, blocker);              as the answers come
 //   void learn(out, order, count);              when all have come
 
@@ -96,24 +98,24 @@ class Group {
     }
   }
 
-  /// Rays guessed to be occluded meet what blocked there before; those that it does not block stay for the walk.
+  /// Rays that are surely occluded, if what was remembered holds, meet what blocked there before; those that it does not
+  /// block stay for the walk.
   void try_remembered() {
     std::uint32_t left = 0;
-    for (std::uint32_t k = 0; k < active_; ++k) {
-      const std::uint16_t i = order_[k];
-      const std::uint32_t blocker = memory_.sure_blocker(i);
-      tried_[i] = blocker != Primitive::kNone && candidates_pay();
-      if (tried_[i]) {
-            recent_.add(blocker);
-        Noticed<Counts> counts;
-        const bool blocked = meets_candidates(i, counts);
-        work_.add(i, counts);
-        if (blocked) {
-          finish(i, true, RayRoute::cached, counts);
-          continue;
-        }
+    for (std::uint32_t k = 0; k < active_;) {
+      const std::uint32_t blocker = memory_.sure_blocker(order_[k]);
+      if (blocker == Primitive::kNone || !candidates_pay()) {
+        order_[left++] = order_[k++];
+        continue;
       }
-      order_[left++] = i;
+      // The rays of one place follow each other.
+      std::uint16_t rays[RayLanes::kMost];
+      std::uint32_t count = 0;
+      while (k < active_ && count < RayLanes::kMost && memory_.sure_blocker(order_[k]) == blocker) rays[count++] = order_[k++];
+      recent_.add(blocker);
+      gather_lanes(rays, count);
+      for (std::uint32_t open = meet_candidates(rays, all_of(count)); open != 0; open &= open - 1)
+        order_[left++] = rays[lane_of(open)];
     }
     active_ = left;
   }
@@ -159,7 +161,7 @@ class Group {
   void pick_leaves(const Beam& beam, LeafSpan leaves, std::uint32_t first, std::uint32_t count) {
     const bool no_room = leaves.end() + leaves.count + kBlockLanes > LeafList::kRoom;
     if (leaves.count <= kFewLeaves || count <= kFewRays || no_room) {
-      for (std::uint32_t k = first; k < first + count; ++k) walk_list(order_[k], leaves);
+      walk_list(first, count, leaves);
       return;
     }
     const std::uint32_t cut = cut_at(beam, first, count);
@@ -190,56 +192,114 @@ class Group {
   }
 
   void walk_alone(std::uint16_t i) {
-    answer(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
+    walk(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
       return wide_walk(tree_, segment.within, segment.ray, leaf, counts);
     });
   }
 
-  void walk_list(std::uint16_t i, LeafSpan leaves) {
-    answer(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
-      return visit_crossed(list_, leaves, segment, leaf, counts);
-    });
+  /// Answers rays with a common list. What blocks one of them is tried on the others at once.
+  void walk_list(std::uint32_t first, std::uint32_t count, LeafSpan leaves) {
+    const auto walk_one = [&](std::uint16_t i) {
+      return walk(i, [&](const Segment& segment, auto&& leaf, auto& counts) {
+        return visit_crossed(list_, leaves, segment, leaf, counts);
+      });
+    };
+    if (!try_candidates_ || !candidates_pay()) {
+      for (std::uint32_t k = first; k < first + count; ++k) walk_one(order_[k]);
+      return;
+    }
+    for (std::uint32_t k = first; k < first + count; k += RayLanes::kMost) {
+      const std::uint16_t* const rays = order_ + k;
+      const std::uint32_t size = std::min(RayLanes::kMost, first + count - k);
+      std::uint32_t open = all_of(size);
+      bool gathered = false;
+      if (memory_.is_by_ray()) {
+        gather_lanes(rays, size);
+        for (; open != 0; open &= open - 1) {
+          const std::uint32_t bit = open & (0u - open);
+          const std::uint16_t i = rays[lane_of(bit)];
+          const bool is_guessed = memory_.guess(i) == Guess::occluded;
+          if (expects_occlusion(i) && (is_guessed ? meet_candidates(rays, bit) : meet_newest(rays, bit)) == 0) continue;
+          walk_one(i);
+        }
+        continue;
+      }
+      if (!recent_.empty() && expects_occlusion(rays[0])) {
+        gather_lanes(rays, size);
+        gathered = true;
+        open = meet_candidates(rays, open);
+      }
+      while (open != 0) {
+        const std::uint16_t i = rays[lane_of(open)];
+        open &= open - 1;
+        if (!walk_one(i) || open == 0) continue;
+        if (!gathered) gather_lanes(rays, size);
+        gathered = true;
+        open = meet_newest(rays, open);
+      }
+    }
   }
 
-  /// Answers a ray by candidates, if it is guessed to be occluded, and else by a walk.
+  /// Answers a ray by a walk.
   template <class Walk>
-  HWY_INLINE void answer(std::uint16_t i, Walk&& walk) {
-    Noticed<Counts> counts;
-    bool occluded = false;
-    RayRoute route = RayRoute::beam;
-    if (try_candidates_ && !tried_[i] && !recent_.empty() && expects_occlusion(i) && candidates_pay()) {
-      occluded = meets_candidates(i, counts);
-      if (occluded) route = RayRoute::cached;
-    }
-    if (!occluded) {
-      choose_skip(i);
-      const Ray& ray = rays_.rays[begin_ + i];
-      const Segment& segment = segments_[i];
-      const auto leaf = [&](BlockRun run, float, float t1) {
-        const LeafTest test(segment.ray);  // many rays come to no leaf
-        return leaf_blocks(scene_, filter_, ray, test, segment.ray, run, t1, counts);
-      };
-      occluded = walk(segment, leaf, counts);
-    }
-    work_.add(i, counts);
-    finish(i, occluded, route, counts);
-  }
-
-  bool meets_candidates(std::uint16_t i, Noticed<Counts>& counts) {
+  HWY_INLINE bool walk(std::uint16_t i, Walk&& the_walk) {
     choose_skip(i);
-    const LeafTest test(segments_[i].ray);
-    const bool blocked = recent_.block(filter_, rays_.rays[begin_ + i], test, segments_[i].ray, counts);
-    ++tries_.tried;
-    tries_.blocked += blocked ? 1 : 0;
-    return blocked;
+    const Ray& ray = rays_.rays[begin_ + i];
+    const Segment& segment = segments_[i];
+    Noticed<Counts> counts;
+    const auto leaf = [&](BlockRun run, float, float t1) {
+      const LeafTest test(segment.ray);  // many rays come to no leaf
+      return leaf_blocks(scene_, filter_, ray, test, segment.ray, run, t1, counts);
+    };
+    const bool occluded = the_walk(segment, leaf, counts);
+    work_.add(i, counts);
+    if (occluded && try_candidates_ && counts.block) recent_.add(*counts.block, counts.lane);
+    finish(i, occluded, RayRoute::beam, counts.blocker());
+    return occluded;
   }
 
-  void finish(std::uint16_t i, bool occluded, RayRoute route_taken, const Noticed<Counts>& counts) {
+  static std::uint32_t all_of(std::uint32_t count) { return (1u << count) - 1; }
+
+  void gather_lanes(const std::uint16_t* rays, std::uint32_t count) {
+    for (std::uint32_t lane = 0; lane < count; ++lane) lanes_.set(lane, segments_[rays[lane]].ray);
+  }
+
+  /// Tries all candidates on the rays named by the bits of `open`; returns those that are not surely blocked.
+  std::uint32_t meet_candidates(const std::uint16_t* rays, std::uint32_t open) {
+    count_tries(open);
+    for (std::uint32_t lane = 0; lane < recent_.block().count && open != 0; ++lane) open = meet(rays, open, lane);
+    return open;
+  }
+  std::uint32_t meet_newest(const std::uint16_t* rays, std::uint32_t open) {
+    count_tries(open);
+    return meet(rays, open, recent_.newest());
+  }
+
+  std::uint32_t meet(const std::uint16_t* rays, std::uint32_t open, std::uint32_t candidate) {
+    const std::uint32_t id = recent_.block().id[candidate];
+    for (std::uint32_t rest = open; rest != 0; rest &= rest - 1) {
+      Counts& counts = work_.of(rays[lane_of(rest)]);
+      counts.primitives(1);
+      counts.indexed(1);
+    }
+    for (std::uint32_t rest = lanes_.surely_hit(recent_.block(), candidate, open); rest != 0; rest &= rest - 1) {
+      const std::uint16_t i = rays[lane_of(rest)];
+      choose_skip(i);
+      if (!filter_.admits(id) || !filter_.is_opaque(rays_.rays[begin_ + i], id)) continue;
+      open &= ~(rest & (0u - rest));
+      ++tries_.blocked;
+      finish(i, true, RayRoute::cached, id);
+    }
+    return open;
+  }
+
+  void count_tries(std::uint32_t open) { tries_.tried += hwy::PopCount(open); }
+
+  void finish(std::uint16_t i, bool occluded, RayRoute route, std::uint32_t blocker) {
     rays_.out[begin_ + i] = occluded ? 1 : 0;
-    work_.set_route(i, route_taken);
-    if (occluded) memory_.note_blocker(i, counts.blocker());
+    work_.set_route(i, route);
+    if (occluded) memory_.note_blocker(i, blocker);
     last_occluded_ = occluded;
-    if (try_candidates_ && occluded && counts.block) recent_.add(*counts.block, counts.lane);
   }
 
   /// What the ray before met says most, and then what is remembered.
@@ -270,7 +330,7 @@ class Group {
   CandidateTries tries_;
   std::size_t begin_ = 0;
   std::uint32_t active_ = 0;
-  bool tried_[kMostRays] = {};
+  RayLanes lanes_;
   std::uint16_t order_[kMostRays];  ///< the active rays
   Segment segments_[kMostRays];
   LeafList list_;

@@ -66,7 +66,9 @@ class GroupWork {
   void deliver(const GroupRays& rays, std::size_t begin, std::uint32_t count) noexcept {
     if (rays.routes) std::copy(routes_, routes_ + count, rays.routes + begin);
     if (rays.route_rays)
-      for (std::uint32_t i = 0; i < count; ++i) ++rays.route_rays[static_cast<std::size_t>(routes_[i])];
+      for (std::size_t route = 0; route < kRayRoutes; ++route)
+        rays.route_rays[route] +=
+            static_cast<std::uint64_t>(std::count(routes_, routes_ + count, static_cast<RayRoute>(route)));
     if constexpr (kCounts) {
       for (std::uint32_t i = 0; i < count; ++i) {
         const RayCounts& work = each_[i].counts;
@@ -115,6 +117,7 @@ enum class Guess : std::uint8_t { unknown, unoccluded, occluded };
 struct NoMemory {
   void place(const GroupRays&, std::size_t, const std::uint16_t*, std::uint32_t) noexcept {}
   Guess guess(std::uint32_t) const noexcept { return Guess::unknown; }
+  bool is_by_ray() const noexcept { return false; }
   std::uint32_t sure_blocker(std::uint32_t) const noexcept { return Primitive::kNone; }
   std::uint32_t blocker(std::uint32_t) const noexcept { return Primitive::kNone; }
   void note_blocker(std::uint32_t, std::uint32_t) noexcept {}
