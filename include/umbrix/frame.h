@@ -54,9 +54,11 @@ struct FrameOptions {
   PredictorKey key = PredictorKey::object;
   PredictorRule rule = PredictorRule::counter;
   std::uint32_t region = 8;          ///< pixels along a side, for PredictorKey::screen
-  /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles.
+  /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles. Where blockers last
+  /// from ray to ray, places of twice the size serve.
   float cell = 0;
-  /// Remembered places, a power of two, 16 bytes each, which places share by a hash; 0: one or two a triangle.
+  /// Remembered places of that size, a power of two, 16 bytes each, which places share by a hash; 0: one or two a
+  /// triangle. Larger places and regions of the screen have a memory of fixed size.
   std::uint32_t slots = 0;
   LinkMode links = LinkMode::lazy;   ///< for FrameMethod::paper and linked
   IndexMode index = IndexMode::learned;  ///< for FrameMethod::paper and indexed
