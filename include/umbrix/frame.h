@@ -54,9 +54,11 @@ struct FrameOptions {
   PredictorKey key = PredictorKey::object;
   PredictorRule rule = PredictorRule::counter;
   std::uint32_t region = 8;          ///< pixels along a side, for PredictorKey::screen
-  /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles.
+  /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles. Where blockers last
+  /// from ray to ray, places of twice the size serve.
   float cell = 0;
-  /// Remembered places, a power of two, 16 bytes each, which places share by a hash; 0: one or two a triangle.
+  /// Remembered places of that size, a power of two, 16 bytes each, which places share by a hash; 0: one or two a
+  /// triangle. Larger places and regions of the screen have a memory of fixed size.
   std::uint32_t slots = 0;
   LinkMode links = LinkMode::lazy;   ///< for FrameMethod::paper and linked
   IndexMode index = IndexMode::learned;  ///< for FrameMethod::paper and indexed
@@ -64,7 +66,7 @@ struct FrameOptions {
   const Executor* executor = nullptr;  ///< for what is built between frames; null: oneTBB
 };
 
-/// What a frame is seen from. Only the memory of a screen depends on it.
+/// What a frame is seen from. Only PredictorKey::screen, PredictorRule::sample and LinkMode::reached depend on it.
 struct FrameView {
   std::int64_t frame = 0;  ///< its number; one that does not follow the last is a cut
   std::uint32_t width = 0, height = 0;  ///< of the image; 0: unknown
@@ -81,7 +83,7 @@ struct Pixel {
 
 /// How a ray was answered.
 enum class RayRoute : std::uint8_t {
-  cached,   ///< by a remembered occluder
+  cached,   ///< by a triangle that blocked rays there in the last frame, or rays just before
   beam,     ///< with its group
   indexed,  ///< by the indexed walk
   linked,   ///< from leaf to leaf
@@ -122,8 +124,8 @@ struct FrameStats {
   bool cut = false;    ///< the screen's memory was dropped: the view jumped, or the size or numbering changed
   std::uint64_t rays = 0;
   std::uint64_t occluded = 0;
-  Confusion confusion;
-  std::uint64_t cache_tries = 0;  ///< rays for which remembered occluders were tested
+  Confusion confusion;            ///< of rays that may need a walk; zeros for methods that remember nothing
+  std::uint64_t cache_tries = 0;  ///< rays that were tested with triangles which blocked others (RayRoute::cached)
   std::uint64_t cache_hits = 0;   ///< of these, answered so
   std::uint64_t routes[kRayRoutes] = {};
   OcclusionCounts counts;              ///< if asked for
@@ -131,7 +133,7 @@ struct FrameStats {
   double precompute_seconds = 0;       ///< in begin_frame and end_frame
   std::uint64_t bytes = 0;             ///< held beside the scene after the frame
 
-  /// Node and primitive tests a ray by which trying remembered occluders cost more than it saved, against never trying
+  /// Node and primitive tests a ray by which trying such triangles cost more than it saved, against never trying
   /// (negative: it saved), from the mean cost of walks. 0 without counts.
   double regret() const noexcept;
 };
@@ -158,7 +160,8 @@ class UMBRIX_API FrameTracer {
   /// resource_limit: no memory for what the frame wants to build; it may go on all the same.
   Status begin_frame(const FrameView& view = {});
 
-  /// out[i] is 1 if the tile's ray i is occluded, else 0. Also right, if slower, outside of a frame.
+  /// out[i] is 1 if the tile's ray i is occluded, else 0. Any threads, but not while start, begin_frame or end_frame
+  /// run. Also right outside of a frame; FrameStats then does not count it.
   void occluded(const ShadowTile& tile, std::uint8_t* out) const noexcept;
 
   /// What the frame did; zeros outside of one.

@@ -12,10 +12,10 @@ namespace umbrix {
 struct KernelInfo {
   const char* name;
   const char* summary;  ///< one line
-  bool needs_preparation;  ///< walks as "standard" does until Scene::prepare has made what it needs
+  bool needs_preparation;  ///< walks as "standard" does until Scene::prepare, or commit for the default, has made it
 };
 
-/// Names a kernel by its place in the list; the default is the one recommended for single rays.
+/// Names a kernel by its place in the list; the default is the recommended one.
 struct KernelId {
   int index = -1;
 };

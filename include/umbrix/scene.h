@@ -73,7 +73,7 @@ class UMBRIX_API Scene {
   /// resource_limit: no memory, or more than 2^29 triangles.
   Status add(const MeshView& mesh, std::uint32_t* mesh_id = nullptr);
 
-  /// Builds the tree. resource_limit: no memory; the scene then stays empty.
+  /// Builds the tree and prepares the default kernel. resource_limit: no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
 
   /// Makes what a kernel needs beside the tree (KernelInfo::needs_preparation), in place of what it had; a kernel that

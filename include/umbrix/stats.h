@@ -11,7 +11,7 @@ namespace umbrix {
 struct RayCounts {
   std::uint64_t rays = 0;
   std::uint64_t invalid_rays = 0;     ///< answered "no hit" without a walk (see Ray)
-  std::uint64_t node_tests = 0;       ///< nodes visited, inner and leaf
+  std::uint64_t node_tests = 0;       ///< nodes visited, inner and leaf; one with eight children is one
   std::uint64_t leaf_visits = 0;      ///< of those, leaves
   std::uint64_t primitive_tests = 0;  ///< ray/triangle tests; each lane that holds a triangle counts one
   std::uint64_t double_tests = 0;     ///< of those, undecided in float
