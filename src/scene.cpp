@@ -171,7 +171,9 @@ Status Scene::commit(const BuildOptions& options) {
     s.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     s.make_view();
     s.committed = true;
-    return prepare(KernelId{});  // the default kernel needs little, and grows as rays want it
+    // The default kernel needs little and grows as rays want it; without it, it walks as "standard" does.
+    if (const Status prepared = prepare(KernelId{}); !prepared) s.side_tables.clear();
+    return {};
   } catch (const std::bad_alloc&) {
     impl_.reset();
     return {StatusCode::resource_limit, "scene: out of memory while building the tree"};
@@ -225,7 +227,9 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
   if (!impl_ || !impl_->committed)
     occluded(rays, out, options);
   else
-    detail::kernel_at(options.kernel).entry_points().occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    detail::kernel_at(options.kernel)
+        .entry_points()
+        .occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -244,7 +248,9 @@ void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOption
   if (!impl_ || !impl_->committed)
     closest(rays, out, options);
   else
-    detail::kernel_at(options.kernel).entry_points().closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    detail::kernel_at(options.kernel)
+        .entry_points()
+        .closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {

@@ -45,7 +45,7 @@ struct RenderJob {
   Size size;                  ///< of a frame
   int threads = 1;
   render::World world;
-  FrameTracer tracer;  ///< of shadow rays, unless a kernel was asked for
+  FrameTracer tracer;                ///< of shadow rays, unless a kernel was asked for
   std::vector<FrameReport> reports;  ///< kept for --stats only
   render::RenderStats stats;         ///< of all frames
   PhaseSeconds seconds;

@@ -38,7 +38,7 @@ Json routes(const render::RouteCounts<std::uint64_t>& rays) {
 }
 
 Json confusion(const Confusion& c) {
-  const auto row = [](const std::uint64_t (&counts)[2]) {
+  const auto row = [](const std::uint64_t(&counts)[2]) {
     return Json{{"unoccluded", counts[0]}, {"occluded", counts[1]}};
   };
   return {{"predicted_occluded", row(c.predicted_occluded)},

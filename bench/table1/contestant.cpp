@@ -23,8 +23,7 @@ template <typename Trace>
 double trace_tiles(const workload::TiledRays& frame, std::vector<std::uint8_t>& answers, const Trace& trace) {
   answers.assign(frame.rays.size(), 0);
   const double start = thread_seconds();
-  for (std::size_t tile = 0; tile < tile_count(frame); ++tile)
-    trace(tile, answers.data() + frame.tile_starts[tile]);
+  for (std::size_t tile = 0; tile < tile_count(frame); ++tile) trace(tile, answers.data() + frame.tile_starts[tile]);
   return thread_seconds() - start;
 }
 
@@ -79,7 +78,9 @@ class FrameContestant : public Contestant {
     FrameOptions options = options_;
     options.count_work = count;
     FrameTracer tracer;
+    const double start = thread_seconds();
     if (Status status = tracer.start(scene, options); !status) return status;
+    const double start_seconds = thread_seconds() - start;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       const workload::TiledRays& frame = frames[i];
       FrameView view;
@@ -96,7 +97,7 @@ class FrameContestant : public Contestant {
       out.frame = tracer.end_frame();
     }
     out.counts = out.frame.counts;
-    out.precompute_seconds = out.frame.precompute_seconds;
+    out.precompute_seconds = start_seconds + out.frame.precompute_seconds;
     out.memory_bytes = out.frame.bytes;
     return {};
   }
@@ -126,11 +127,10 @@ bool is_wanted(const std::string& name, const std::vector<std::string>& wanted) 
 }  // namespace
 
 const Executor& one_thread() {
-  static const Executor executor = {
-      [](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
-        for (std::size_t i = 0; i < count; ++i) body(data, i);
-      },
-      nullptr};
+  static const Executor executor = {[](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
+                                      for (std::size_t i = 0; i < count; ++i) body(data, i);
+                                    },
+                                    nullptr};
   return executor;
 }
 

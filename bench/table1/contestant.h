@@ -17,12 +17,12 @@ using Frames = std::vector<workload::TiledRays>;
 /// What tracing the last frame took.
 struct FrameResult {
   std::vector<std::uint8_t> answers;
-  OcclusionCounts counts;            ///< if counted
-  double seconds = 0;                ///< of traversal, processor time of one thread
-  double precompute_seconds = 0;     ///< what had to be made for it, on one thread
-  std::uint64_t memory_bytes = 0;    ///< beside the tree
-  std::string notes;                 ///< what else there is to say, for the table's foot
-  FrameStats frame;                  ///< of frame tracers
+  OcclusionCounts counts;          ///< if counted
+  double seconds = 0;              ///< of traversal, processor time of one thread
+  double precompute_seconds = 0;   ///< what had to be made for it, on one thread
+  std::uint64_t memory_bytes = 0;  ///< beside the tree
+  std::string notes;               ///< what else there is to say, for the table's foot
+  FrameStats frame;                ///< of frame tracers
 };
 
 /// A way to answer a frame's shadow rays.
@@ -35,9 +35,9 @@ class Contestant {
   virtual Status run(Scene& scene, const Frames& frames, const Training& lights, bool count, FrameResult& out) = 0;
 };
 
-/// One for each kernel of the table ("standard", "ropes", ...), for the frame tracer ("auto") and for the paper's method
-/// in full ("paper"). `names` may name them, or a family before a dash ("sato" for "sato-box" and the others); "all" is
-/// everything but "brute". invalid_argument names the known ones.
+/// One for each kernel of the table ("standard", "ropes", ...), for the frame tracer ("auto") and for the paper's
+/// method in full ("paper"). `names` may name them, or a family before a dash ("sato" for "sato-box" and the others);
+/// "all" is everything but "brute". invalid_argument names the known ones.
 Status make_contestants(const std::vector<std::string>& names, std::vector<std::unique_ptr<Contestant>>& out);
 
 /// A frame tracer with these options as a contestant.

@@ -73,28 +73,29 @@ nlohmann::json row_json(const TableRow& row) {
 void print_table(const std::vector<TableRow>& rows) {
   const TableRow& standard = rows.front();
   const Figures base = figures(standard);
-  fmt::print("\n{}, light {}: {} triangles, tree depth {}, {} rays, {:.1f} % occluded\n", standard.scene, standard.light,
-             standard.build.triangles, standard.build.depth, standard.result.answers.size(),
+  fmt::print("\n{}, light {}: {} triangles, tree depth {}, {} rays, {:.1f} % occluded\n", standard.scene,
+             standard.light, standard.build.triangles, standard.build.depth, standard.result.answers.size(),
              100 * occluded_fraction(standard));
   fmt::print("  {:<14} {:>14} {:>14} {:>14} {:>14} {:>16} {:>9} {:>8} {:>6}\n", "kernel", "occl. node", "occl. prim",
              "unoccl. node", "unoccl. prim", "traversal ms", "pre. ms", "MB", "wrong");
   for (const TableRow& row : rows) {
     const Figures f = figures(row);
-    fmt::print("  {:<14} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>8.1f} {:>7} {:>9.1f} {:>8.2f} {:>6}\n",
-               row.kernel, f.node_occluded, change(f.node_occluded, base.node_occluded), f.primitive_occluded,
-               change(f.primitive_occluded, base.primitive_occluded), f.node_unoccluded,
-               change(f.node_unoccluded, base.node_unoccluded), f.primitive_unoccluded,
-               change(f.primitive_unoccluded, base.primitive_unoccluded), 1e3 * f.seconds,
-               change(f.seconds, base.seconds), 1e3 * f.precompute, 1e-6 * static_cast<double>(row.result.memory_bytes),
-               row.wrong);
+    fmt::print(
+        "  {:<14} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>6.1f} {:>7} {:>8.1f} {:>7} {:>9.1f} {:>8.2f} {:>6}\n",
+        row.kernel, f.node_occluded, change(f.node_occluded, base.node_occluded), f.primitive_occluded,
+        change(f.primitive_occluded, base.primitive_occluded), f.node_unoccluded,
+        change(f.node_unoccluded, base.node_unoccluded), f.primitive_unoccluded,
+        change(f.primitive_unoccluded, base.primitive_unoccluded), 1e3 * f.seconds, change(f.seconds, base.seconds),
+        1e3 * f.precompute, 1e-6 * static_cast<double>(row.result.memory_bytes), row.wrong);
   }
   for (const TableRow& row : rows) {
     const FrameStats& frame = row.result.frame;
     if (frame.rays == 0) continue;
-    fmt::print("  {}: {:.1f} % of predictions wrong, {} rays not predicted; cache {} of {} tries; regret {:.2f} tests a ray\n",
-               row.kernel, 100 * (1 - frame.confusion.accuracy()),
-               frame.confusion.not_predicted[0] + frame.confusion.not_predicted[1], frame.cache_hits, frame.cache_tries,
-               frame.regret());
+    fmt::print(
+        "  {}: {:.1f} % of predictions wrong, {} rays not predicted; cache {} of {} tries; regret {:.2f} tests a ray\n",
+        row.kernel, 100 * (1 - frame.confusion.accuracy()),
+        frame.confusion.not_predicted[0] + frame.confusion.not_predicted[1], frame.cache_hits, frame.cache_tries,
+        frame.regret());
   }
 }
 

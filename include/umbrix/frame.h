@@ -53,25 +53,25 @@ struct FrameOptions {
   FrameMethod method = FrameMethod::best;
   PredictorKey key = PredictorKey::object;
   PredictorRule rule = PredictorRule::counter;
-  std::uint32_t region = 8;          ///< pixels along a side, for PredictorKey::screen
+  std::uint32_t region = 8;  ///< pixels along a side, for PredictorKey::screen
   /// Of the scene's largest extent, for PredictorKey::object; 0: about the size of its triangles. Where blockers last
   /// from ray to ray, places of twice the size serve.
   float cell = 0;
   /// Remembered places of that size, a power of two, 16 bytes each, which places share by a hash; 0: one or two a
   /// triangle. Larger places and regions of the screen have a memory of fixed size.
   std::uint32_t slots = 0;
-  LinkMode links = LinkMode::lazy;   ///< for FrameMethod::paper and linked
+  LinkMode links = LinkMode::lazy;       ///< for FrameMethod::paper and linked
   IndexMode index = IndexMode::learned;  ///< for FrameMethod::paper and indexed
-  bool count_work = false;           ///< fill FrameStats::counts; slower
-  const Executor* executor = nullptr;  ///< for what is built between frames; null: oneTBB
+  bool count_work = false;               ///< fill FrameStats::counts; slower
+  const Executor* executor = nullptr;    ///< for what is built between frames; null: oneTBB
 };
 
 /// What a frame is seen from. Only PredictorKey::screen, PredictorRule::sample and LinkMode::reached depend on it.
 struct FrameView {
-  std::int64_t frame = 0;  ///< its number; one that does not follow the last is a cut
+  std::int64_t frame = 0;               ///< its number; one that does not follow the last is a cut
   std::uint32_t width = 0, height = 0;  ///< of the image; 0: unknown
   float eye[3] = {0, 0, 0};
-  float forward[3] = {0, 0, 0};  ///< the viewing direction, any length; zeros: unknown
+  float forward[3] = {0, 0, 0};        ///< the viewing direction, any length; zeros: unknown
   const float (*lights)[3] = nullptr;  ///< where lights are, for LinkMode::reached
   std::size_t light_count = 0;
 };
@@ -128,10 +128,10 @@ struct FrameStats {
   std::uint64_t cache_tries = 0;  ///< rays that were tested with triangles which blocked others (RayRoute::cached)
   std::uint64_t cache_hits = 0;   ///< of these, answered so
   std::uint64_t routes[kRayRoutes] = {};
-  OcclusionCounts counts;              ///< if asked for
+  OcclusionCounts counts;                 ///< if asked for
   RayCounts route_counts[kRayRoutes][2];  ///< if asked for; by route, [0] unoccluded and [1] occluded
-  double precompute_seconds = 0;       ///< in begin_frame and end_frame
-  std::uint64_t bytes = 0;             ///< held beside the scene after the frame
+  double precompute_seconds = 0;          ///< in begin_frame and end_frame
+  std::uint64_t bytes = 0;                ///< held beside the scene after the frame
 
   /// Node and primitive tests a ray by which trying such triangles cost more than it saved, against never trying
   /// (negative: it saved), from the mean cost of walks. 0 without counts.

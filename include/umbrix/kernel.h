@@ -11,7 +11,7 @@ namespace umbrix {
 /// A way to walk the scene. All kernels give identical answers; they differ in time and counts.
 struct KernelInfo {
   const char* name;
-  const char* summary;  ///< one line
+  const char* summary;     ///< one line
   bool needs_preparation;  ///< walks as "standard" does until Scene::prepare, or commit for the default, has made it
 };
 

@@ -39,7 +39,7 @@ struct QueryOptions {
 /// Rays like those to come, for kernels that learn from them. Others use the executor only.
 struct Training {
   RaySpan rays;
-  const Primitive* skip = nullptr;  ///< as in QueryOptions
+  const Primitive* skip = nullptr;     ///< as in QueryOptions
   const float (*lights)[3] = nullptr;  ///< where the rays go to, for links made from the lights on
   std::size_t light_count = 0;
   const Executor* executor = nullptr;  ///< null: oneTBB

@@ -14,8 +14,8 @@
 
 namespace umbrix::detail {
 
-/// A fixed number of elements, all zero bytes at first, whose memory the system gives only where it is used: room can be
-/// reserved for the worst case. Throws std::bad_alloc.
+/// A fixed number of elements, all zero bytes at first, whose memory the system gives only where it is used: room can
+/// be reserved for the worst case. Throws std::bad_alloc.
 template <class T>
 class LazyArray {
   static_assert(std::is_trivially_destructible_v<T>);

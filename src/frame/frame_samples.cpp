@@ -18,7 +18,8 @@ using HWY_NAMESPACE::Interval;
 using HWY_NAMESPACE::WalkRay;
 
 /// Marks the leaves that the ray crosses within the interval, the empty ones too.
-void mark_leaves(const Tree& tree, std::uint32_t node_index, const WalkRay& ray, Interval at, std::vector<bool>& marks) {
+void mark_leaves(const Tree& tree, std::uint32_t node_index, const WalkRay& ray, Interval at,
+                 std::vector<bool>& marks) {
   const Node& node = tree.nodes[node_index];
   if (node.is_leaf()) {
     marks[node_index] = true;

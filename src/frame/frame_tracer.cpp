@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "umbrix/frame.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "frame/frame_samples.h"
 #include "frame/tile_memory.h"
 #include "index/select_paper.h"
+#include "umbrix/frame.h"
 
 namespace umbrix {
 namespace {
@@ -41,7 +40,9 @@ std::uint32_t slots_for(std::size_t triangles) {
 }
 
 /// A triangle's share of the scene's extent, if they tiled a square of it.
-double cell_for(std::size_t triangles) { return 1 / std::clamp(std::sqrt(static_cast<double>(triangles)), 64.0, 4096.0); }
+double cell_for(std::size_t triangles) {
+  return 1 / std::clamp(std::sqrt(static_cast<double>(triangles)), 64.0, 4096.0);
+}
 
 /// Of the views of two frames: did the camera jump by a tenth of the scene, or turn by more than a quarter of a right
 /// angle?
@@ -69,9 +70,7 @@ void add(Confusion& sum, const Confusion& part) {
 
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
-  Impl(const detail::SceneView& the_scene, const FrameOptions& the_options)
-      : scene(the_scene),
-        options(the_options) {
+  Impl(const detail::SceneView& the_scene, const FrameOptions& the_options) : scene(the_scene), options(the_options) {
     const detail::Tree& tree = *scene.tree;
     extent = std::ldexp(static_cast<double>(tree.root.largest_extent()), -tree.scale_exponent);
     if (!(extent > 0) || !std::isfinite(extent)) extent = 1;
@@ -102,16 +101,16 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   }
 
   /// By cells, either a few rays go by one that holds many triangles, or each by one of its own. Where what blocked the
-  /// last ray mostly blocks the next one, the former will do and costs less time; among leaves of trees it will not. The
-  /// first frame learns for both.
+  /// last ray mostly blocks the next one, the former will do and costs less time; among leaves of trees it will not.
+  /// The frames before enough is known learn for both; what is chosen then stays.
   void choose_memory(bool is_first) {
-    use = {&*regions};
+    if (is_first) use = {&*regions};
     if (options.key == PredictorKey::screen) return;
     const bool by_points = 20 * stats.cache_hits < 9 * stats.cache_tries;
     if (is_first) {
       points.emplace(options.slots != 0 ? options.slots : slots_for(scene.kept_count));
       use = {&*points, &*regions, 1, 0, 1, true};
-    } else if (by_points && points) {
+    } else if (by_points) {
       use = {&*points, nullptr, 1, 0, 0, true};
     } else {
       points.reset();
@@ -148,8 +147,8 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   }
 
   std::uint64_t bytes() const {
-    return (regions ? regions->bytes() : 0) + (points ? points->bytes() : 0) + (wide ? wide->bytes() : 0) + (links ? links->bytes() : 0) +
-           (index ? index->bytes() : 0);
+    return (regions ? regions->bytes() : 0) + (points ? points->bytes() : 0) + (wide ? wide->bytes() : 0) +
+           (links ? links->bytes() : 0) + (index ? index->bytes() : 0);
   }
 
   detail::SceneView scene;
@@ -185,7 +184,7 @@ void FrameTracer::Impl::begin(const FrameView& next) {
                jumped(view, next, extent));
   if (stats.cut) regions->forget();
   view = next;
-  view.lights = nullptr;  // the host's, for this call only
+  view.lights = nullptr;        // the host's, for this call only
   any_frame = in_frame = true;  // also if what follows finds no memory
   relink(next);
   relearn();
@@ -229,7 +228,8 @@ FrameStats FrameTracer::Impl::end() {
   in_frame = false;
   if (regions) regions->next_frame();
   if (points) points->next_frame();
-  if (remembers()) choose_memory(false);
+  constexpr std::uint64_t kEnoughTries = 256;
+  if (use.also && stats.cache_tries >= kEnoughTries) choose_memory(false);
   stats.precompute_seconds += seconds_since(start);
   stats.bytes = bytes();
   return stats;

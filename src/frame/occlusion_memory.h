@@ -32,7 +32,8 @@ class Memory {
     Memory m;
     const auto sum = [](std::uint32_t a, std::uint32_t b) { return std::uint64_t{std::min(a + b, kVotes)}; };
     m.bits_ = std::max(bits_ & kBlocker, o.bits_ & kBlocker) | (sum(occluded(), o.occluded()) << kOccluded) |
-              (sum(unoccluded(), o.unoccluded()) << kUnoccluded) | std::max(bits_ & kCounterBits, o.bits_ & kCounterBits);
+              (sum(unoccluded(), o.unoccluded()) << kUnoccluded) |
+              std::max(bits_ & kCounterBits, o.bits_ & kCounterBits);
     return m;
   }
 
@@ -54,19 +55,22 @@ class Memory {
   static constexpr std::uint64_t kBlocker = 0xFFFFFFFFu;
   static constexpr std::uint64_t kCounterBits = std::uint64_t{7} << kCounter;
 
-  std::uint32_t field(int at, std::uint32_t mask) const noexcept { return static_cast<std::uint32_t>(bits_ >> at) & mask; }
+  std::uint32_t field(int at, std::uint32_t mask) const noexcept {
+    return static_cast<std::uint32_t>(bits_ >> at) & mask;
+  }
 
   std::uint64_t bits_;
 };
 
-/// Two tables of memories by slot: one that the last frame filled, to read, and one that this frame fills. Any number of
-/// threads.
+/// Two tables of memories by slot: one that the last frame filled, to read, and one that this frame fills. Any number
+/// of threads.
 class OcclusionMemory {
  public:
   /// `slots` is a power of two. Throws std::bad_alloc.
   explicit OcclusionMemory(std::uint32_t slots) : mask_(slots - 1), tables_{Table(slots), Table(slots)} {}
 
-  /// The slot of a place given by three coordinates and a light. Two by two by two neighbours share a line of the cache.
+  /// The slot of a place given by three coordinates and a light. Two by two by two neighbours share a line of the
+  /// cache.
   std::uint32_t slot(std::int32_t x, std::int32_t y, std::int32_t z, std::uint32_t light) const noexcept {
     // Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators": the finaliser, on a sum of multiples.
     const auto part = [](std::int32_t i) { return std::uint64_t{static_cast<std::uint32_t>(i >> 1)}; };

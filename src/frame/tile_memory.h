@@ -21,7 +21,9 @@ struct Place {
 class PlaceFinder {
  public:
   PlaceFinder(const FrameOptions& options, std::int64_t frame, double cell_size)
-      : options_(options), frame_(static_cast<std::uint64_t>(frame)), inverse_cell_(static_cast<float>(1 / cell_size)) {}
+      : options_(options),
+        frame_(static_cast<std::uint64_t>(frame)),
+        inverse_cell_(static_cast<float>(1 / cell_size)) {}
 
   PredictorRule rule() const noexcept { return options_.rule; }
   bool needs_pixels() const noexcept { return options_.key == PredictorKey::screen; }
@@ -65,8 +67,8 @@ struct MemoryUse {
   bool only_occluded = false;  ///< where every ray has its own place, only those that are blocked are worth the room
 };
 
-/// What a group knows of its rays from the last frame, and where it puts what it learns. For one tile. Neighbours mostly
-/// belong to one place, so the memory is asked and told only where that changes.
+/// What a group knows of its rays from the last frame, and where it puts what it learns. For one tile. Neighbours
+/// mostly belong to one place, so the memory is asked and told only where that changes.
 class TileMemory {
  public:
   /// `pixels` may be null.
@@ -134,7 +136,8 @@ class TileMemory {
       const std::uint32_t* const seen = places_.takes_samples() ? known.seen : known.outcomes;
       const Memory memory(seen[1], seen[0], known.seen_blocker - 1u);
       if (seen[1] > 0 || (seen[0] > 0 && !use_.only_occluded)) use_.memory->learn(known.slot, memory);
-      if (use_.also && seen[0] + seen[1] > 0) use_.also->learn(slot(*use_.also, known.place, use_.also_coarser), memory);
+      if (use_.also && seen[0] + seen[1] > 0)
+        use_.also->learn(slot(*use_.also, known.place, use_.also_coarser), memory);
     }
     known_count_ = 0;
   }

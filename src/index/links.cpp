@@ -21,8 +21,8 @@ constexpr std::uint32_t kOutside = 0;  ///< the root is nobody's neighbour
 constexpr std::size_t kSpareRecords = 1024;
 
 std::size_t count_leaves(const Tree& tree) {
-  return static_cast<std::size_t>(std::count_if(tree.nodes.begin(), tree.nodes.end(),
-                                                [](const Node& node) { return node.is_leaf(); }));
+  return static_cast<std::size_t>(
+      std::count_if(tree.nodes.begin(), tree.nodes.end(), [](const Node& node) { return node.is_leaf(); }));
 }
 
 const Box& everywhere() {

@@ -89,7 +89,7 @@ class Links : public SideTable {
   const Tree& tree_;
   LinkBuilder builder_;
   // Growing lazily cannot be seen by a caller: hence mutable behind const.
-  LazyArray<LinkedLeaf> leaves_;                  ///< by record
+  LazyArray<LinkedLeaf> leaves_;                   ///< by record
   LazyArray<std::atomic<std::uint32_t>> records_;  ///< by node
   mutable std::atomic<std::uint32_t> next_record_{1};
   mutable std::atomic<std::uint32_t> leaf_count_{0};  ///< without records that two threads made of one leaf

@@ -160,7 +160,8 @@ Srdh::Srdh(const std::vector<Triangle>& scaled, std::vector<std::uint32_t> kept,
     if (!node.is_leaf()) continue;
     const DVec3 extent(node.faces[3] - node.faces[0], node.faces[4] - node.faces[1], node.faces[5] - node.faces[2]);
     const double diagonal = glm::length(extent) + 8 * static_cast<double>(eps);
-    pack_block(all.leaves[leaf].begin, all.leaves[leaf].count, triangle_of, static_cast<float>(diagonal), blocks_[leaf]);
+    pack_block(all.leaves[leaf].begin, all.leaves[leaf].count, triangle_of, static_cast<float>(diagonal),
+               blocks_[leaf]);
     node.block = leaf++;
   }
 }

@@ -80,9 +80,7 @@ WideTree::WideTree(const Tree& tree, const Triangle* triangles)
   add(0, tree.root);
 }
 
-std::uint64_t WideTree::bytes() const noexcept {
-  return next_.load(std::memory_order_relaxed) * sizeof(WideNode);
-}
+std::uint64_t WideTree::bytes() const noexcept { return next_.load(std::memory_order_relaxed) * sizeof(WideNode); }
 
 /// The bounds of the leaf's triangles within its cell grown by eps, grown once more for the rounding of plane times.
 Box WideTree::contents(const Node& leaf, const Box& cell) const noexcept {

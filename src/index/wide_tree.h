@@ -31,8 +31,8 @@ class WideChild {
 };
 
 /// Up to eight descendants of an inner node of the tree, and their boxes: of inner nodes the cell, of leaves the bounds
-/// of what they hold of their triangles, grown by eps. Leaves that hold nothing are left out; lanes without a child have
-/// a box that nothing meets.
+/// of what they hold of their triangles, grown by eps. Leaves that hold nothing are left out; lanes without a child
+/// have a box that nothing meets.
 struct alignas(64) WideNode {
   float faces[kFaces][kBlockLanes];
   std::atomic<std::uint64_t> children[kBlockLanes];
@@ -40,8 +40,8 @@ struct alignas(64) WideNode {
 static_assert(sizeof(WideNode) == 256);
 
 /// The tree with its levels folded, so that eight boxes are tested at once and leaves are met only where they hold
-/// something. Nodes are made by the first ray that comes to them, from any thread. Each is a function of the tree's node
-/// alone: answers and counts do not depend on the order.
+/// something. Nodes are made by the first ray that comes to them, from any thread. Each is a function of the tree's
+/// node alone: answers and counts do not depend on the order.
 class WideTree : public SideTable {
  public:
   /// `tree` and `triangles` (the scene's, unscaled) must outlive it. Throws std::bad_alloc.

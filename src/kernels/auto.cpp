@@ -23,6 +23,7 @@ const EntryPoints& auto_entry_points() { return batch_entry_points<true>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-UMBRIX_DEFINE_KERNEL(kAutoKernel, auto_entry_points, "auto", "groups of rays; those guessed to be occluded first meet what blocked the last ones",
+UMBRIX_DEFINE_KERNEL(kAutoKernel, auto_entry_points, "auto",
+                     "groups of rays; those guessed to be occluded first meet what blocked the last ones",
                      make_wide_tree)
 #endif

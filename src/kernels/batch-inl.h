@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The queries of kernels that answer rays in groups. Few rays are not worth a group; hits that come first are looked for
-// by the stack walk.
+// The queries of kernels that answer rays in groups. Few rays are not worth a group; hits that come first are looked
+// for by the stack walk.
 
 #if defined(UMBRIX_KERNELS_BATCH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_BATCH_INL_H_

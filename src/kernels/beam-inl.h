@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A beam holds a group of segments: it is the hull of the box of their starts and the box of their ends, the union of
-// the boxes in between (Haines & Wallace 1991, "Shaft culling for efficient ray-traced radiosity"). On each axis it lies
-// between two straight lines over the time u in [0, 1], so it goes down a KD-tree like a ray with two plane times. It
-// gathers the leaves that any of its segments may meet; of these each segment then picks its own, eight boxes at a time.
+// the boxes in between (Haines & Wallace 1991, "Shaft culling for efficient ray-traced radiosity"). On each axis it
+// lies between two straight lines over the time u in [0, 1], so it goes down a KD-tree like a ray with two plane times.
+// It gathers the leaves that any of its segments may meet; of these each segment then picks its own, eight boxes at a
+// time.
 
 #if defined(UMBRIX_KERNELS_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_BEAM_INL_H_
@@ -85,8 +86,8 @@ class Beam {
     starts_ = {{bounds[0][0], bounds[0][1], bounds[0][2]}, {bounds[1][0], bounds[1][1], bounds[1][2]}};
     ends_ = {{bounds[2][0], bounds[2][1], bounds[2][2]}, {bounds[3][0], bounds[3][1], bounds[3][2]}};
     const float largest = std::max({bounds[4][0], bounds[4][1], bounds[4][2], 1.0f});
-    // The tree's eps, the rounding of starts and ends (of values up to twice the largest: coordinates within the root are
-    // at most 1), and that of plane times (as for a ray: within eps). Doubled.
+    // The tree's eps, the rounding of starts and ends (of values up to twice the largest: coordinates within the root
+    // are at most 1), and that of plane times (as for a ray: within eps). Doubled.
     const float margin = 4 * tree.eps + 0x1p-20f * largest;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       const int k = static_cast<int>(axis);
@@ -105,7 +106,8 @@ class Beam {
     return std::abs(d.x) * e.y * e.z + std::abs(d.y) * e.z * e.x + std::abs(d.z) * e.x * e.y;
   }
 
-  /// Appends the leaves that the beam meets, those near its start first on the whole; false if they are more than `most`.
+  /// Appends the leaves that the beam meets, those near its start first on the whole; false if they are more than
+  /// `most`.
   template <class Counts>
   bool gather(const WideTree& tree, LeafList& list, LeafSpan& span, std::uint32_t most, Counts& counts) const {
     struct Pending {
@@ -159,10 +161,12 @@ class Beam {
   }
 
   /// Picks the leaves of a list that this beam meets too, in their order, into a list behind it.
-  LeafSpan pick(LeafList& list, LeafSpan from) const {
+  template <class Counts>
+  LeafSpan pick(LeafList& list, LeafSpan from, Counts& counts) const {
     LeafSpan to{from.end(), 0};
     alignas(32) float entered[kBlockLanes];
     for (std::uint32_t i = 0; i < from.count; i += kBlockLanes) {
+      counts.node();
       std::uint32_t rest = meets(list.faces, from.first + i, entered);
       if (from.count - i < kBlockLanes) rest &= (1u << (from.count - i)) - 1;
       for (; rest != 0; rest &= rest - 1) {

@@ -22,6 +22,6 @@ const EntryPoints& beam_entry_points() { return batch_entry_points<false>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-UMBRIX_DEFINE_KERNEL(kBeamKernel, beam_entry_points, "beam", "one walk for a group of rays, which then pick their leaves",
-                     make_wide_tree)
+UMBRIX_DEFINE_KERNEL(kBeamKernel, beam_entry_points, "beam",
+                     "one walk for a group of rays, which then pick their leaves", make_wide_tree)
 #endif

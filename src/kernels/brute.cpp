@@ -26,7 +26,8 @@ struct Brute {
   }
 
   template <class Counts>
-  static void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State&, Nearest& nearest, Counts& counts) {
+  static void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State&, Nearest& nearest,
+                      Counts& counts) {
     if (!is_valid(ray)) {
       counts.invalid_ray();
       return;

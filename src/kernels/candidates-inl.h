@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles that may well block the next ray, as one block: what blocked rays nearby (Haines & Greenberg 1986, "The light
-// buffer", section on shadow caches).
+// Triangles that may well block the next ray, as one block: what blocked rays nearby (Haines & Greenberg 1986, "The
+// light buffer", section on shadow caches).
 
 #if defined(UMBRIX_KERNELS_CANDIDATES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_CANDIDATES_INL_H_
@@ -35,8 +35,8 @@ class RayLanes {
     tmax_[lane] = ray.tmax;
   }
 
-  /// Those of the `open` rays that surely hit the triangle in the block's lane: the float test of leaf_test-inl.h with the parts of ray
-  /// and triangle exchanged. Which of the others hit it stays open.
+  /// Those of the `open` rays that surely hit the triangle in the block's lane: the float test of leaf_test-inl.h with
+  /// the parts of ray and triangle exchanged. Which of the others hit it stays open.
   HWY_INLINE std::uint32_t surely_hit(const Block& block, std::uint32_t lane, std::uint32_t open) const {
     const Lanes8 f;
     const auto e1x = hn::Set(f, block.e1[0][lane]), e1y = hn::Set(f, block.e1[1][lane]);
@@ -51,8 +51,10 @@ class RayLanes {
       const auto sx = hn::Sub(hn::Load(f, origin_[0] + i), hn::Set(f, block.v0[0][lane]));
       const auto sy = hn::Sub(hn::Load(f, origin_[1] + i), hn::Set(f, block.v0[1][lane]));
       const auto sz = hn::Sub(hn::Load(f, origin_[2] + i), hn::Set(f, block.v0[2][lane]));
-      const auto px = cross_term(dy, e2z, dz, e2y), py = cross_term(dz, e2x, dx, e2z), pz = cross_term(dx, e2y, dy, e2x);
-      const auto qx = cross_term(sy, e1z, sz, e1y), qy = cross_term(sz, e1x, sx, e1z), qz = cross_term(sx, e1y, sy, e1x);
+      const auto px = cross_term(dy, e2z, dz, e2y), py = cross_term(dz, e2x, dx, e2z),
+                 pz = cross_term(dx, e2y, dy, e2x);
+      const auto qx = cross_term(sy, e1z, sz, e1y), qy = cross_term(sz, e1x, sx, e1z),
+                 qz = cross_term(sx, e1y, sy, e1x);
       const auto signed_det = dot(e1x, e1y, e1z, px, py, pz);
       const auto sign = hn::And(signed_det, hn::Set(f, -0.0f));
       const auto det = hn::Abs(signed_det);
@@ -63,8 +65,7 @@ class RayLanes {
 
       // The bounds, with the distance to the first vertex, a little more for the rounding of its own sum.
       const auto length = hn::Load(f, length_ + i);
-      const auto distance =
-          hn::Mul(hn::Add(hn::Abs(sx), hn::Add(hn::Abs(sy), hn::Abs(sz))), hn::Set(f, 1 + 0x1p-20f));
+      const auto distance = hn::Mul(hn::Add(hn::Abs(sx), hn::Add(hn::Abs(sy), hn::Abs(sz))), hn::Set(f, 1 + 0x1p-20f));
       const auto tmin = hn::Load(f, tmin_ + i), tmax = hn::Load(f, tmax_ + i);
       const auto bound = hn::Set(f, kNormBound);
       const auto e = hn::MulAdd(hn::Mul(bound, hn::Mul(length, edge)), hn::Add(hn::Add(distance, distance), edge),

@@ -98,8 +98,8 @@ class Group {
     }
   }
 
-  /// Rays that are surely occluded, if what was remembered holds, meet what blocked there before; those that it does not
-  /// block stay for the walk.
+  /// Rays that are surely occluded, if what was remembered holds, meet what blocked there before; those that it does
+  /// not block stay for the walk.
   void try_remembered() {
     std::uint32_t left = 0;
     for (std::uint32_t k = 0; k < active_;) {
@@ -111,7 +111,8 @@ class Group {
       // The rays of one place follow each other.
       std::uint16_t rays[RayLanes::kMost];
       std::uint32_t count = 0;
-      while (k < active_ && count < RayLanes::kMost && memory_.sure_blocker(order_[k]) == blocker) rays[count++] = order_[k++];
+      while (k < active_ && count < RayLanes::kMost && memory_.sure_blocker(order_[k]) == blocker)
+        rays[count++] = order_[k++];
       recent_.add(blocker);
       gather_lanes(rays, count);
       for (std::uint32_t open = meet_candidates(rays, all_of(count)); open != 0; open &= open - 1)
@@ -168,7 +169,10 @@ class Group {
     for (const bool high : {false, true}) {
       const std::uint32_t from = high ? first + cut : first, size = high ? count - cut : cut;
       const Beam half(segments_, order_ + from, size, *scene_.tree);
-      pick_leaves(half, half.pick(list_, leaves), from, size);
+      Counts shared;
+      const LeafSpan picked = half.pick(list_, leaves, shared);
+      work_.share(shared, order_ + from, size);
+      pick_leaves(half, picked, from, size);
     }
   }
 

@@ -25,21 +25,21 @@ struct PrepareInput {
 /// A way to walk the scene. All kernels give the same answers.
 struct Kernel {
   KernelInfo info;
-  const EntryPoints& (*entry_points)();                       ///< those of the instruction set in use
+  const EntryPoints& (*entry_points)();                        ///< those of the instruction set in use
   std::unique_ptr<SideTable> (*prepare)(const PrepareInput&);  ///< null: the kernel needs nothing beside the tree
 };
 
 /// Defines a kernel at the end of its file, within HWY_ONCE. `entry` is the function that each instruction set's
 /// namespace has for it.
-#define UMBRIX_DEFINE_KERNEL(variable, entry, name, summary, prepare_function)               \
-  namespace umbrix::detail {                                                                 \
-  namespace {                                                                                \
-  HWY_EXPORT(entry);                                                                         \
-  }                                                                                          \
-  extern const Kernel variable;                                                              \
-  const Kernel variable = {{name, summary, (prepare_function) != nullptr},                    \
+#define UMBRIX_DEFINE_KERNEL(variable, entry, name, summary, prepare_function)                   \
+  namespace umbrix::detail {                                                                     \
+  namespace {                                                                                    \
+  HWY_EXPORT(entry);                                                                             \
+  }                                                                                              \
+  extern const Kernel variable;                                                                  \
+  const Kernel variable = {{name, summary, (prepare_function) != nullptr},                       \
                            []() -> const EntryPoints& { return HWY_DYNAMIC_DISPATCH(entry)(); }, \
-                           prepare_function};                                                \
+                           prepare_function};                                                    \
   }  // namespace umbrix::detail
 
 /// Prepares the kernels that have a WideTree as their side table.

@@ -3,7 +3,8 @@
 // inlined. A kernel class has
 //   using State = ...;  what lasts from ray to ray of one call; made from a SceneView
 //   template <class Counts> static bool occluded(const SceneView&, const Filter&, const Ray&, State&, Counts&);
-//   template <class Counts> static void closest(const SceneView&, const Filter&, const Ray&, State&, Nearest&, Counts&);
+//   template <class Counts> static void closest(const SceneView&, const Filter&, const Ray&, State&, Nearest&,
+//   Counts&);
 
 #if defined(UMBRIX_KERNELS_QUERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_QUERIES_INL_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Links of all leaves, made before the first ray (Popov, Guenther, Seidel & Slusallek 2007, "Stackless KD-tree traversal
-// for high performance GPU ray tracing").
+// Links of all leaves, made before the first ray (Popov, Guenther, Seidel & Slusallek 2007, "Stackless KD-tree
+// traversal for high performance GPU ray tracing").
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/ropes.cpp"

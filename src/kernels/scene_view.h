@@ -30,7 +30,7 @@ struct SceneView {
   const std::uint32_t* mesh_of;  ///< by triangle
   const MeshRecord* meshes;
   std::size_t mesh_count;
-  bool all_plain;  ///< no mesh has a zero mask or an opacity test
+  bool all_plain;                   ///< no mesh has a zero mask or an opacity test
   const SideTable* side = nullptr;  ///< of the kernel that is asked, if it was prepared
 };
 

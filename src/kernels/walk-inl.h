@@ -69,7 +69,8 @@ HWY_INLINE Reach prepare(const Ray& ray, const Tree& tree, WalkRay& out) {
   const auto margin = hn::Set(f, 4 * tree.root.largest_extent());
   const auto least = hn::Set(f, 0x1p-64f);
   const BoxLanes& root = tree.root_lanes;
-  // The ray's floats in order: origin, tmin, direction, tmax. The spare lanes so hold tmin and tmax, which no one reads.
+  // The ray's floats in order: origin, tmin, direction, tmax. The spare lanes so hold tmin and tmax, which no one
+  // reads.
   const float* const values = reinterpret_cast<const float*>(&ray);
   bool near = true;
   for (std::size_t k = 0; k < 4; k += hn::Lanes(f)) {

@@ -45,7 +45,7 @@ void DirectLight::add(const io::Light& light, std::uint32_t number, const std::v
                       const std::vector<Pixel>& pixels, std::vector<CameraSample>& samples, LightStats& stats) {
   gather(light, surfaces, pixels, samples, stats);
   const auto start = std::chrono::steady_clock::now();
-  trace(number);
+  trace(number, stats);
   stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     CameraSample& sample = samples[pending_[i].sample];
@@ -95,10 +95,11 @@ void DirectLight::gather(const io::Light& light, const std::vector<Surface>& sur
   }
 }
 
-void DirectLight::trace(std::uint32_t light) {
+void DirectLight::trace(std::uint32_t light, LightStats& stats) {
   occluded_.resize(rays_.size());
   routes_.assign(rays_.size(), RayRoute::other);
-  work_.assign(query_.count_work || query_.count_work_per_ray ? rays_.size() : 0, RayCounts());
+  const bool counts_each = query_.count_work_per_ray || (query_.count_work && query_.tracer);
+  work_.assign(counts_each ? rays_.size() : 0, RayCounts());
   if (query_.tracer) {
     ShadowTile tile;
     tile.light = light;
@@ -113,7 +114,11 @@ void DirectLight::trace(std::uint32_t light) {
   QueryOptions options;
   options.kernel = query_.kernel;
   options.skip = skip_.data();
-  if (work_.empty()) {
+  if (!counts_each && query_.count_work) {
+    world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), stats.counts, options);
+    return;
+  }
+  if (!counts_each) {
     world_.scene.occluded({rays_.data(), rays_.size()}, occluded_.data(), options);
     return;
   }

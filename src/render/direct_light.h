@@ -14,8 +14,8 @@ namespace umbrix::render {
 struct ShadowQuery {
   KernelId kernel;
   const FrameTracer* tracer = nullptr;  ///< in a frame: answers in place of the kernel
-  bool count_work = false;          ///< fill LightStats::counts
-  bool count_work_per_ray = false;  ///< fill CameraSample's node and primitive tests as well
+  bool count_work = false;              ///< fill LightStats::counts
+  bool count_work_per_ray = false;      ///< fill CameraSample's node and primitive tests as well
 };
 
 /// Adds the light of `light` to each sample that met a surface: one shadow ray where the light can reach, traced
@@ -31,7 +31,7 @@ class DirectLight {
  private:
   void gather(const io::Light& light, const std::vector<Surface>& surfaces, const std::vector<Pixel>& pixels,
               std::vector<CameraSample>& samples, LightStats& stats);
-  void trace(std::uint32_t light);
+  void trace(std::uint32_t light, LightStats& stats);
   void count_work(std::vector<CameraSample>& samples, LightStats& stats) const;
 
   struct Pending {

@@ -68,7 +68,8 @@ class TileRenderer {
   const RenderStats& stats() const { return stats_; }
 
  private:
-  /// Lists the tile's pixels so that those near each other follow each other: in blocks of 4x4, these in blocks of 16x16.
+  /// Lists the tile's pixels so that those near each other follow each other: in blocks of 4x4, these in blocks of
+  /// 16x16.
   void order_pixels(const PixelRect& tile) {
     pixels_.clear();
     for (int i = 0; i < kTileSize * kTileSize; ++i) {

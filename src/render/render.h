@@ -33,10 +33,10 @@ struct RenderOptions {
   std::uint32_t samples = 1;  ///< a pixel
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;  ///< names of known_aovs()
-  KernelId kernel;                  ///< of camera rays, and of shadow rays if there is no tracer
-  FrameTracer* tracer = nullptr;    ///< started for the world's scene: answers shadow rays, from frame to frame
-  std::int64_t frame = 0;           ///< the tracer's frame number
-  bool count_work = false;                                            ///< fill LightStats::counts; slower
+  KernelId kernel;                ///< of camera rays, and of shadow rays if there is no tracer
+  FrameTracer* tracer = nullptr;  ///< started for the world's scene: answers shadow rays, from frame to frame
+  std::int64_t frame = 0;         ///< the tracer's frame number
+  bool count_work = false;        ///< fill LightStats::counts; slower
   const std::atomic<bool>* cancel = nullptr;                          ///< polled for each tile and sample
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< tiles; called by one thread at a time
 };

@@ -35,8 +35,10 @@ class HandMadeTree : public testing::Test {
 
   void pack() {
     const std::uint32_t ids[] = {0, 1, 2, 3, 4, 5};
-    pack_block(ids, 1, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[0]);
-    pack_block(ids + 1, 5, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[1]);
+    pack_block(
+        ids, 1, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[0]);
+    pack_block(
+        ids + 1, 5, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[1]);
   }
 
   bool root_is_high_first(SatoMeasure measure) const {
@@ -74,7 +76,8 @@ TEST_F(HandMadeTree, IsMeasured) {
 
 TEST_F(HandMadeTree, CountsATriangleInSeveralLeavesOnce) {
   const std::uint32_t ids[] = {0, 1};
-  pack_block(ids, 2, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[0]);
+  pack_block(
+      ids, 2, [&](std::uint32_t id) -> const Triangle& { return triangles_[id]; }, 2, tree_.blocks[0]);
   tree_.nodes[5] = Node::leaf(2, 1);
   tree_.blocks.push_back(tree_.blocks[0]);
   const std::vector<double> counts = triangle_counts(tree_);

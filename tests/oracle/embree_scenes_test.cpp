@@ -86,9 +86,7 @@ std::vector<Ray> edge_rays(const workload::Geometry& geometry, const workload::V
 
 constexpr std::size_t kShareOfMost = 10;
 
-bool answers_all(const std::string& kernel) {
-  return kernel == "auto" || kernel == "standard" || kernel == "linked";
-}
+bool answers_all(const std::string& kernel) { return kernel == "auto" || kernel == "standard" || kernel == "linked"; }
 
 std::vector<Ray> every_tenth(const std::vector<Ray>& rays) {
   std::vector<Ray> result;

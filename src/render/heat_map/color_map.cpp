@@ -51,8 +51,8 @@ Color viridis(double t) {
 }
 
 Color route_color(RayRoute route) {
-  static const RouteCounts<Color> colors = {display_color(0x009e73), display_color(0xf0e442), display_color(0x56b4e9), display_color(0xe69f00),
-                                            display_color(0xcc79a7)};
+  static const RouteCounts<Color> colors = {display_color(0x009e73), display_color(0xf0e442), display_color(0x56b4e9),
+                                            display_color(0xe69f00), display_color(0xcc79a7)};
   return colors[index_of(route)];
 }
 
