@@ -102,11 +102,12 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
 
   /// By cells, either a few rays go by one that holds many triangles, or each by one of its own. Where what blocked the
   /// last ray mostly blocks the next one, the former will do and costs less time; among leaves of trees it will not.
-  /// The frames before enough is known learn for both; what is chosen then stays.
+  /// The first frame that has rays learns for both; what is chosen then stays.
   void choose_memory(bool is_first) {
     if (is_first) use = {&*regions};
     if (options.key == PredictorKey::screen) return;
-    const bool by_points = 20 * stats.cache_hits < 9 * stats.cache_tries;
+    constexpr std::uint64_t kEnoughTries = 256;
+    const bool by_points = stats.cache_tries >= kEnoughTries && 20 * stats.cache_hits < 9 * stats.cache_tries;
     if (is_first) {
       points.emplace(options.slots != 0 ? options.slots : slots_for(scene.kept_count));
       use = {&*points, &*regions, 1, 0, 1, true};
@@ -228,8 +229,7 @@ FrameStats FrameTracer::Impl::end() {
   in_frame = false;
   if (regions) regions->next_frame();
   if (points) points->next_frame();
-  constexpr std::uint64_t kEnoughTries = 256;
-  if (use.also && stats.cache_tries >= kEnoughTries) choose_memory(false);
+  if (use.also && stats.rays > 0) choose_memory(false);
   stats.precompute_seconds += seconds_since(start);
   stats.bytes = bytes();
   return stats;

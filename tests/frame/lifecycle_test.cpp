@@ -231,7 +231,7 @@ TEST_F(FrameLife, BadOptionsAreRefused) {
 
 TEST_F(FrameLife, ExtremeOptionsCostTimeOnly) {
   constexpr void (*kExtreme[])(FrameOptions&) = {
-      [](FrameOptions& o) { o.slots = 2; },
+      [](FrameOptions& o) { o.slots = 8; },
       [](FrameOptions& o) { o.cell = std::numeric_limits<float>::denorm_min(); },
       [](FrameOptions& o) { o.cell = std::numeric_limits<float>::infinity(); },
       [](FrameOptions& o) { o.region = 1; },

@@ -199,6 +199,7 @@ TEST(DirectLight, ChannelsHoldWhatTheirNamesSay) {
                                              "node_tests.Y",
                                              "primitive_tests.Y",
                                              "kernel.cached",
+                                             "kernel.beam",
                                              "kernel.indexed",
                                              "kernel.linked",
                                              "kernel.other"};
@@ -210,7 +211,8 @@ TEST(DirectLight, ChannelsHoldWhatTheirNamesSay) {
   EXPECT_EQ(r.at(0, 4, 10), 0.25) << "albedo.G";
   EXPECT_GT(r.at(0, 4, 12), 0) << "node_tests";
   EXPECT_GT(r.at(7, 4, 13), 0) << "primitive_tests";
-  EXPECT_EQ(r.at(7, 4, 14) + r.at(7, 4, 15) + r.at(7, 4, 16) + r.at(7, 4, 17), 1) << "shares of the ways";
+  EXPECT_EQ(r.at(7, 4, 14) + r.at(7, 4, 15) + r.at(7, 4, 16) + r.at(7, 4, 17) + r.at(7, 4, 18), 1)
+      << "shares of the ways";
   for (const LightStats& light : r.stats.lights) {
     EXPECT_EQ(std::accumulate(light.routes.begin(), light.routes.end(), std::uint64_t{0}), light.rays());
   }

@@ -205,11 +205,11 @@ TEST(HeatMap, RoutesMixByTheirShares) {
   io::Image image;
   image.width = 3;
   image.height = 1;
-  image.channels = {"kernel.cached", "kernel.indexed", "kernel.linked", "kernel.other"};
-  image.pixels = {1, 0, 0, 0, 0.5f, 0, 0.5f, 0, 0, 0, 0, 0};
+  image.channels = {"kernel.cached", "kernel.beam", "kernel.indexed", "kernel.linked", "kernel.other"};
+  image.pixels = {1, 0, 0, 0, 0, 0.5f, 0, 0, 0.5f, 0, 0, 0, 0, 0, 0};
   RenderStats stats;
   stats.lights.resize(1);
-  stats.lights[0].routes = {3, 0, 1, 0};
+  stats.lights[0].routes = {3, 0, 0, 1, 0};
   const io::Image picture = drawn({"kernel"}, image, stats);
   const Color cached = route_color(RayRoute::cached), linked = route_color(RayRoute::linked);
   EXPECT_TRUE(same(at(picture, 0, 0), cached));
