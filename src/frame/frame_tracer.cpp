@@ -30,7 +30,7 @@ Status check(const FrameOptions& options) {
 }
 
 /// More than a screen has regions, few enough to stay in the cache.
-constexpr std::uint32_t kRegionSlots = 1u << 15;
+constexpr std::uint32_t kRegionSlots = 1u << 16;
 
 /// The power of two that is one to two times the triangles, within reason.
 std::uint32_t slots_for(std::size_t triangles) {
