@@ -99,6 +99,7 @@ Status run_chunk(const cases::Case& c, std::uint64_t seed, std::uint64_t chunk, 
   judge::Options options;
   options.kernels = settings.kernels;
   options.all_targets = chunk % kTargetPeriod == 0;
+  options.on_all_targets = {"auto", "standard", "linked"};  // the parts that differ by instruction set
   options.closest_rays = rays / kClosestShare;
   judge::Result result;
   if (Status status = judge::judge(data, options, result); !status) return status;

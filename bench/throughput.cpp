@@ -47,7 +47,10 @@ struct Peer {
 constexpr std::size_t kBruteTriangles = 2000;
 constexpr const char* kReferenceEmbree = "embree:single:robust";
 
-Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles, std::vector<Peer>& peers) {
+Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles, const std::vector<Ray>& rays,
+                   std::vector<Peer>& peers) {
+  Training training;
+  training.rays = {rays.data(), rays.size()};
   std::vector<std::string> names = settings.kernels;
   if (names.empty()) {
     for (std::size_t i = 0; i < kernel_count(); ++i) {
@@ -58,9 +61,9 @@ Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles
   for (const std::string& name : names) {
     QueryOptions options;
     if (Status status = find_kernel(name.c_str(), options.kernel); !status) return status;
-    if (Status status = scene.prepare(options.kernel); !status) return status;
+    if (Status status = scene.prepare(options.kernel, training); !status) return status;
     peers.push_back(
-        {"umbrix:" + name, [&scene, options](RaySpan rays, std::uint8_t* out) { scene.occluded(rays, out, options); }});
+        {"umbrix:" + name, [&scene, options](RaySpan part, std::uint8_t* out) { scene.occluded(part, out, options); }});
   }
   return {};
 }
@@ -158,7 +161,7 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
       workload::shadow_rays(scene, geometry, viewpoint.camera, viewpoint.lights[settings.light], settings.size);
 
   std::vector<Peer> peers;
-  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), peers); !status) return status;
+  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), rays, peers); !status) return status;
   add_embree(robust, "robust", peers);
   add_embree(fast, "fast", peers);
   for (Peer& peer : peers) {

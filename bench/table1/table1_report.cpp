@@ -57,6 +57,12 @@ nlohmann::json row_json(const TableRow& row) {
                          {"wrong", row.wrong},
                          {"triangles", row.build.triangles},
                          {"tree_depth", row.build.depth}};
+  RayCounts all = row.result.counts.occluded;
+  all += row.result.counts.unoccluded;
+  if (all.links_followed + all.links_missing > 0) {
+    json["links_followed"] = all.links_followed;
+    json["links_missing"] = all.links_missing;
+  }
   const FrameStats& frame = row.result.frame;
   if (frame.rays > 0) {
     json["misprediction_rate"] = 1 - frame.confusion.accuracy();

@@ -125,8 +125,8 @@ struct FrameStats {
   std::uint64_t rays = 0;
   std::uint64_t occluded = 0;
   Confusion confusion;            ///< of rays that may need a walk; zeros for methods that remember nothing
-  std::uint64_t cache_tries = 0;  ///< rays that were tested with triangles which blocked others (RayRoute::cached)
-  std::uint64_t cache_hits = 0;   ///< of these, answered so
+  std::uint64_t cache_tries = 0;  ///< how often a ray met triangles that blocked others (RayRoute::cached)
+  std::uint64_t cache_hits = 0;   ///< and was blocked by one
   std::uint64_t routes[kRayRoutes] = {};
   OcclusionCounts counts;                 ///< if asked for
   RayCounts route_counts[kRayRoutes][2];  ///< if asked for; by route, [0] unoccluded and [1] occluded

@@ -180,7 +180,7 @@ void FrameTracer::Impl::begin(const FrameView& next) {
   stats = FrameStats();
   stats.frame = next.frame;
   stats.first = !any_frame;
-  stats.cut = any_frame && options.key == PredictorKey::screen &&
+  stats.cut = any_frame && regions && options.key == PredictorKey::screen &&
               (next.frame != view.frame + 1 || next.width != view.width || next.height != view.height ||
                jumped(view, next, extent));
   if (stats.cut) regions->forget();
