@@ -115,7 +115,7 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
       use = {&*points, nullptr, 1, 0, 0, true};
     } else {
       points.reset();
-      use = {&*regions, nullptr, 64, 1};
+      use = {&*regions, nullptr, 16, 1};
     }
   }
 
