@@ -2,6 +2,7 @@
 #include "frame/frame_samples.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <new>
 
@@ -31,6 +32,15 @@ void mark_leaves(const Tree& tree, std::uint32_t node_index, const WalkRay& ray,
   if (t < at.t1) mark_leaves(tree, near ^ 1u, ray, {std::max(at.t0, t), at.t1}, marks);
 }
 
+/// A value's bits, for an order that knows no equal but the same.
+template <class T>
+std::array<std::uint32_t, sizeof(T) / 4> words_of(const T& value) {
+  static_assert(sizeof(T) % 4 == 0);
+  std::array<std::uint32_t, sizeof(T) / 4> words;
+  std::memcpy(words.data(), &value, sizeof value);
+  return words;
+}
+
 }  // namespace
 
 void FrameSamples::add(const ShadowTile& tile) noexcept try {
@@ -55,12 +65,13 @@ std::vector<bool> FrameSamples::touched_leaves(const Tree& tree) const {
 std::unique_ptr<PrimitiveIndex> FrameSamples::learned_index(const SceneView& scene, const Executor* executor) const {
   // Tiles came in any order: put the rays in one of their own.
   std::vector<Sample> sorted = samples_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const Sample& a, const Sample& b) { return std::memcmp(&a, &b, sizeof a) < 0; });
+  std::sort(sorted.begin(), sorted.end(), [](const Sample& a, const Sample& b) { return words_of(a) < words_of(b); });
   std::vector<Primitive> skip;
+  skip.reserve(sorted.size());
   for (const Sample& sample : sorted) skip.push_back(sample.skip);
   const RaySpan rays{&sorted.data()->ray, sorted.size(), sizeof(Sample)};
   std::vector<std::uint32_t> blockers;
+  blockers.reserve(sorted.size());
   for (const Ending& ending : find_endings(scene, rays, skip.data(), executor)) blockers.push_back(ending.blocker);
   return std::make_unique<PrimitiveIndex>(*scene.tree, scene.triangles,
                                           select_learned(*scene.tree, {rays, blockers.data()}));
