@@ -18,11 +18,15 @@
 #include "kernels/indexed_walk-inl.h"
 #include "kernels/tree_kernel-inl.h"
 
+#ifndef UMBRIX_KERNELS_INDEXED_FALLBACK_  // this file is compiled several times over
+#define UMBRIX_KERNELS_INDEXED_FALLBACK_
+namespace umbrix::detail {
+extern const Kernel kStandardKernel;
+}
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
-
-extern const Kernel kStandardKernel;
-
 namespace HWY_NAMESPACE {
 namespace {
 
