@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights with an area send, against closed forms. Each check takes the mean of independent samples; it must lie
-// within kSigmas standard errors of the truth, as estimated from the samples themselves.
+// What lights with an area send, against closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,40 +7,12 @@
 #include <random>
 
 #include "built_scenes.h"
-#include "render/lights/light.h"
+#include "light_estimates.h"
 
 namespace umbrix::render {
 namespace {
 
-/// One check in 2 million fails by chance, if all is right.
-constexpr double kSigmas = 5;
-constexpr int kSamples = 20000;
 constexpr unsigned kSeed = 20;
-
-struct Mean {
-  double value, error;
-};
-
-/// The irradiance on the receiver: the mean of what samples bring.
-Mean irradiance(const Light& light, const Receiver& receiver, std::mt19937_64& random) {
-  std::uniform_real_distribution<double> uniform(0, 1);
-  double sum = 0, squares = 0;
-  for (int i = 0; i < kSamples; ++i) {
-    const SamplePoint u = {uniform(random), uniform(random)};
-    const Arrival arrival = light.sample(receiver, u);
-    if (arrival.unreached != Unreached::no) continue;
-    const double cosine = glm::dot(glm::normalize(arrival.to_light), receiver.normal);
-    const double value = arrival.irradiance.g * std::max(cosine, 0.0);
-    sum += value;
-    squares += value * value;
-  }
-  const double mean = sum / kSamples;
-  return {mean, std::sqrt(std::max(squares / kSamples - mean * mean, 0.0) / kSamples)};
-}
-
-void expect_mean(const Mean& mean, double expected) {
-  EXPECT_NEAR(mean.value, expected, kSigmas * mean.error + 1e-6 * expected) << "standard error " << mean.error;
-}
 
 /// Lambert 1760: a polygon of radiance 1 above the horizon, seen from the origin by a surface with this normal.
 double polygon_irradiance(const std::vector<Vec3>& corners, const Vec3& normal) {
@@ -54,11 +25,6 @@ double polygon_irradiance(const std::vector<Vec3>& corners, const Vec3& normal) 
   return std::abs(sum) / 2;
 }
 
-Vec3 unit_vector(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return glm::normalize(Vec3(normal(random), normal(random), normal(random)));
-}
-
 io::Double3 numbers(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 io::Light rectangle(const Vec3& centre, const Vec3& half_u, const Vec3& half_v) {
@@ -69,8 +35,6 @@ io::Light rectangle(const Vec3& centre, const Vec3& half_u, const Vec3& half_v) 
   light.half_edges = {numbers(half_u), numbers(half_v)};
   return light;
 }
-
-Receiver receiver(const Vec3& point, const Vec3& normal) { return {point, point, normal}; }
 
 TEST(AreaLights, RectangleOverheadHasItsFormFactor) {
   // A unit square that looks straight down from height 1 on the point below a corner: Howell's catalogue, B-3.
