@@ -223,8 +223,9 @@ TEST(LightRays, EnvironmentIsSeenWhereNothingElseIs) {
   io::Light sky;
   sky.type = io::LightType::environment;
   sky.color = {1, 2, 3};
+  const io::SceneFile empty;
   World world;
-  ASSERT_TRUE(build_world(io::SceneFile(), {}, world).ok());
+  ASSERT_TRUE(build_world(empty, {}, world).ok());
   io::Image image;
   RenderStats stats;
   ASSERT_TRUE(render(world, {point_camera(), {sky, sky}}, options(1, 4, 1), image, stats).ok());
