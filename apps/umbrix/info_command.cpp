@@ -47,6 +47,19 @@ Json lights(const io::SceneFile& scene) {
   return list;
 }
 
+/// Meshes that are lights, by the light that each instance makes.
+Json emissive_meshes(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (const io::Light& light : io::emissive_lights(scene)) {
+    const io::Mesh& mesh = scene.meshes[scene.instances[light.instance].mesh];
+    list.push_back({{"name", light.name},
+                    {"triangles", mesh.triangles.size()},
+                    {"radiance", light.color},
+                    {"double_sided", scene.materials[mesh.material].double_sided}});
+  }
+  return list;
+}
+
 Json cameras(const io::SceneFile& scene) {
   Json list = Json::array();
   for (const io::Camera& camera : scene.cameras) {
@@ -80,6 +93,7 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"bounds", bounds(meshes)},
           {"cameras", cameras(scene)},
           {"lights", lights(scene)},
+          {"emissive_meshes", emissive_meshes(scene)},
           {"extensions_used", scene.extensions_used},
           {"ignored", scene.ignored},
           {"warnings", warnings}};
