@@ -25,7 +25,9 @@ struct File {
 
 // Non-blocking, so that a pipe nobody writes to cannot hang the program.
 void open_regular(const std::string& path, File& file) {
-  file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  do {
+    file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  } while (file.number < 0 && errno == EINTR);
   struct stat info {};
   if (file.number < 0 || ::fstat(file.number, &info) != 0) {
     bad_input("cannot be read: {}", std::generic_category().message(errno));
