@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preloaded into a program, makes memory run out after main has begun: UMBRIX_FAIL_ALLOCATION=N fails the N-th request,
-// "N+" that one and all after it. When one has failed the file UMBRIX_FAIL_MARK is made.
+// "N+" that one and all after it. When main has ended, the number of requests goes to the file UMBRIX_FAIL_COUNT.
 #include <dlfcn.h>
-#include <fcntl.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -30,8 +28,6 @@ bool fails() {
   if (!counting) return false;
   const long request = ++seen;
   if (request < number || (request > number && !fails_on)) return false;
-  const char* const mark = request == number ? std::getenv("UMBRIX_FAIL_MARK") : nullptr;
-  if (mark) syscall(SYS_close, syscall(SYS_openat, AT_FDCWD, mark, O_CREAT | O_WRONLY, 0600));
   errno = ENOMEM;
   return true;
 }
@@ -44,6 +40,12 @@ int counted_main(int argc, char** argv, char** environment) {
   }
   const int code = real_main(argc, argv, environment);
   counting = false;
+  if (const char* path = std::getenv("UMBRIX_FAIL_COUNT")) {
+    if (std::FILE* const file = std::fopen(path, "w")) {
+      std::fprintf(file, "%ld\n", seen.load());
+      std::fclose(file);
+    }
+  }
   return code;
 }
 

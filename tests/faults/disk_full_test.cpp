@@ -31,7 +31,7 @@ class DiskFull : public FaultTest {
   }
 
   Outcome render_to_disk() {
-    return run({"render", path("scene.gltf"), "-q", "-o", path("disk/out.exr"), "--overwrite", "--size", "640x320",
+    return run({"render", path("scene.gltf"), "-q", "-o", path("disk/out.exr"), "--overwrite", "--size", "400x200",
                 "--float", "-j", "2"});
   }
 

@@ -3,6 +3,7 @@
 #include "failing_allocator.h"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 

@@ -47,7 +47,7 @@ void FaultTest::SetUp() {
 
 std::vector<std::string> FaultTest::render_arguments() const {
   return {"render",  path("scene.gltf"), "-q", "-o", path("out.exr"), "-o", path("out.png"), "--overwrite", "--size",
-          "640x320", "--float",          "-j", "2"};
+          "400x200", "--float",          "-j", "2"};
 }
 
 void FaultTest::make_expected() {

@@ -177,7 +177,7 @@ TEST(LibraryAllocation, EveryFailureIsAStatusAndEveryAnswerRight) {
       ASSERT_EQ(pass.wrong, 0) << input.name;
     }
     requests += count;
-    const std::uint64_t step = all ? 1 : std::max<std::uint64_t>(1, count / 40);
+    const std::uint64_t step = all ? 1 : std::max<std::uint64_t>(1, count / 25);
     for (std::uint64_t n = 1; n <= count; n += step) {
       for (const bool all_after : {false, true}) {
         Pass pass(input);

@@ -23,7 +23,7 @@ class SameOutput : public FaultTest {
 };
 
 TEST_F(SameOutput, IsOneCompleteImage) {
-  const int count = fault_runs(8, 50);
+  const int count = fault_runs(6, 50);
   FaultRow row(std::to_string(count) + " processes write one file");
   std::vector<std::string> images;
   for (const char* seed : {"0", "1"}) {

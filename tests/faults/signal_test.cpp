@@ -34,7 +34,7 @@ class Signal : public FaultTest {
 TEST_F(Signal, AtAnyTime) {
   make_expected();
   FaultRow row("SIGINT and SIGTERM at a random time of a render");
-  interrupt(render_arguments(), seconds_, fault_runs(10, 200), row);
+  interrupt(render_arguments(), seconds_, fault_runs(8, 200), row);
 }
 
 TEST_F(Signal, WhileALargeTreeIsBuilt) {
@@ -60,7 +60,7 @@ TEST_F(Signal, WhileALargeImageIsWritten) {
   FaultRow row("SIGINT and SIGTERM while an image of 64 megapixels is written");
   // Three quarters of its time.
   std::vector<std::string> arguments = render_arguments();
-  *std::find(arguments.begin(), arguments.end(), "640x320") = "8000x8000";
+  *std::find(arguments.begin(), arguments.end(), "400x200") = "8000x8000";
   interrupt(arguments, 12, fault_runs(0, 20), row);
 }
 
