@@ -11,7 +11,10 @@ namespace {
 
 /// At the peak of a build a triangle holds about this much: sorted events of the cells on the way down, references and
 /// finished subtrees (docs/reliability.md has what was measured).
-std::uint64_t build_bytes_per_triangle(BuildQuality quality) { return quality == BuildQuality::high ? 500 : 400; }
+std::uint64_t build_bytes_per_triangle(BuildQuality quality) { return quality == BuildQuality::high ? 450 : 350; }
+
+/// What libraries, threads and encoders come to hold while the program runs.
+constexpr std::uint64_t kProgramBytes = 30 << 20;
 
 std::uint64_t placed_vertices(const io::SceneFile& scene) {
   std::uint64_t count = 0;
@@ -25,7 +28,7 @@ double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 <
 
 MemoryPlan plan_memory(const RenderJob& job) {
   MemoryPlan plan;
-  plan.held = resident_bytes();
+  plan.held = resident_bytes() + kProgramBytes;
   plan.world = placed_vertices(job.scene) * sizeof(io::Float3) +
                job.scene.instanced_triangles() * build_bytes_per_triangle(job.arguments.build_quality);
   // The floats, and a copy of them while they are encoded.

@@ -9,7 +9,7 @@ namespace umbrix::app {
 
 /// What the rest of the run will hold at most, in bytes, as far as can be told when the scene is read.
 struct MemoryPlan {
-  std::uint64_t held = 0;   ///< by now
+  std::uint64_t held = 0;   ///< by now, and by the program itself later
   std::uint64_t world = 0;  ///< placed vertices, triangles and tree, while the tree is built
   std::uint64_t image = 0;  ///< while it is written
 

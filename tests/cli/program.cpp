@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -104,8 +105,10 @@ pid_t ProgramTest::start_command(std::vector<std::string> words, int standard_ou
 
 Outcome ProgramTest::wait(pid_t process) {
   int status = 0;
-  EXPECT_EQ(waitpid(process, &status, 0), process);
+  rusage usage{};
+  EXPECT_EQ(wait4(process, &status, 0, &usage), process);
   Outcome outcome;
+  outcome.peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   for (const auto& [suffix, text] : {std::pair(".out", &outcome.out), std::pair(".err", &outcome.err)}) {
     *text = read_file(folder_.string() + suffix);

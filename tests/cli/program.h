@@ -14,6 +14,7 @@ struct Outcome {
   int code = -1;  ///< exit code, or 128 + the signal that ended it
   std::string out;
   std::string err;
+  double peak_megabytes = 0;  ///< of memory held
 };
 
 /// A test with an empty folder of its own, removed at the end, in which `umbrix` is run.

@@ -50,6 +50,61 @@ TEST_F(Memory, WhatCannotFitIsRefusedAndNamed) {
     EXPECT_EQ(run({"info", path("scene.gltf"), "--memory-limit", size}).code, 2) << size;
 }
 
+TEST_F(Memory, LimitOfAnySizeOnALargeScene) {
+  const std::string scene = shared_scene("victorian_house");
+  const int count = fault_runs(0, 20);
+  if (scene.empty() || count == 0) GTEST_SKIP() << "no shared scenes, or a short run";
+  make_expected();
+  std::vector<std::string> arguments = render_arguments();
+  arguments[1] = scene;
+  ASSERT_EQ(run(arguments).code, 0);
+  exr_ = read("out.exr");
+  png_ = read("out.png");
+  FaultRow row("--memory-limit from 40 MB to 1 GB, 1 million triangles");
+  int refused = 0;
+  double most_above = 0;
+  for (int i = 0; i < count; ++i) {
+    for (const char* name : {"out.exr", "out.png"}) write(name, "precious");
+    const double megabytes = 40 * std::pow(25.0, i / std::max(1.0, count - 1.0));
+    std::vector<std::string> limited = arguments;
+    limited.insert(limited.end(), {"--memory-limit", std::to_string(static_cast<long>(megabytes)) + "M"});
+    const Outcome outcome = run(limited);
+    SCOPED_TRACE(megabytes);
+    row.add(is_right_or_six(outcome));
+    refused += outcome.code == 6 ? 1 : 0;
+    most_above = std::max(most_above, outcome.peak_megabytes - megabytes);
+  }
+  char text[96];
+  std::snprintf(text, sizeof text, "%d refused with code 6; at most %.0f MB above the limit", refused, most_above);
+  row.remark(text);
+}
+
+/// What --dry-run foresees against what is held at the peak.
+TEST_F(Memory, IsForeseen) {
+  if (fault_runs(0, 1) == 0) GTEST_SKIP() << "a short run";
+  FaultRow row("memory foreseen / held at the peak");
+  std::string ratios;
+  for (const char* name : {"classroom", "sponza_crytek", "bedroom", "conference", "victorian_house"}) {
+    if (shared_scene(name).empty()) continue;
+    const std::vector<std::string> arguments = {"render", shared_scene(name), "-q",
+                                                "-o",     path("out.exr"),    "--overwrite"};
+    std::vector<std::string> dry = arguments;
+    dry.push_back("--dry-run");
+    const std::string said = run(dry).out;
+    const double foreseen = std::atof(said.c_str() + said.find("about ") + 6);
+    const Outcome outcome = run(arguments);
+    const double ratio = foreseen / outcome.peak_megabytes;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%s %.0f/%.0f MB", ratios.empty() ? "" : ", ", name, foreseen,
+                  outcome.peak_megabytes);
+    ratios += text;
+    const bool good = outcome.code == 0 && ratio > 0.9 && ratio < 1.25;
+    EXPECT_TRUE(good) << text;
+    row.add(good);
+  }
+  row.remark(ratios);
+}
+
 TEST_F(Memory, AddressSpaceOfAnySize) {
   make_expected();
   std::vector<std::string> arguments = render_arguments();
