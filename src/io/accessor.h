@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "io/tinygltf.h"
 
 namespace umbrix::io::detail {
 
