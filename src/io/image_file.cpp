@@ -26,8 +26,12 @@ struct Format {
 constexpr Format kFormats[] = {UMBRIX_IMAGE_FORMATS(UMBRIX_FORMAT_ROW)};
 #undef UMBRIX_FORMAT_ROW
 
-// The most pixels that read_image takes, before memory is asked for.
-constexpr std::uint64_t kMaxFloats = 1ull << 31;
+// What read_image takes, judged by the header before memory is asked for: the largest image, and how much larger it may
+// be than its file, beyond a size that does no harm. The best of the usual codecs reaches 1032 (deflate) on bytes,
+// which become floats.
+constexpr std::uint64_t kMostFloats = 1ull << 31;
+constexpr std::uint64_t kHarmlessFloats = 1ull << 24;
+constexpr std::uint64_t kMostFloatsPerByte = 2048;
 
 Status failed(const std::string& path, const std::string& reason) {
   return {StatusCode::output_failed, detail::printable(path) + ": " + detail::one_line(reason)};
@@ -74,6 +78,17 @@ Status guarded(const std::string& path, Step step) {
   }
 }
 
+std::uint64_t file_bytes(const std::string& path) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(path, error);
+  return error ? 0 : bytes;
+}
+
+// Does a small file claim a large image?
+bool is_bomb(std::uint64_t floats, const std::string& path) {
+  return floats > kHarmlessFloats && floats / kMostFloatsPerByte > file_bytes(path);
+}
+
 Status read_checked(const std::string& path, Image& out) {
   if (Status status = detail::check_readable(path); !status) return status;
   const auto bad = [&](const std::string& reason) {
@@ -83,15 +98,18 @@ Status read_checked(const std::string& path, Image& out) {
   if (!input) return bad(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) return bad("the image is empty");
-  const auto floats = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-  if (floats > kMaxFloats / static_cast<std::uint64_t>(spec.nchannels)) {
-    return {StatusCode::resource_limit, detail::printable(path) + ": the image is too large"};
+  const auto pixels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+  const auto channels = static_cast<std::uint64_t>(spec.nchannels);
+  if (pixels > kMostFloats / channels || is_bomb(pixels * channels, path)) {
+    return {StatusCode::resource_limit,
+            fmt::format("{}: the image is too large: {} x {} with {} channels in a file of {} bytes",
+                        detail::printable(path), spec.width, spec.height, channels, file_bytes(path))};
   }
   Image image;
   image.width = spec.width;
   image.height = spec.height;
   image.channels = spec.channelnames;
-  image.pixels.resize(floats * static_cast<std::uint64_t>(spec.nchannels));
+  image.pixels.resize(pixels * channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
     return bad(input->geterror());
   }
