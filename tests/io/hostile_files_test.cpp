@@ -32,7 +32,7 @@ TEST(HostileFiles, ContainersThatLie) {
   const TempFolder folder;
   const std::string json = chunk("JSON", kEmptyScene), bin = chunk(kBin, "12345678");
   SceneFile scene;
-  for (const std::string& chunks : {json, json + bin, json + bin + chunk("XYZW", "1234"), json + chunk("XYZW", "")}) {
+  for (const std::string& chunks : {json, json + bin, json + bin + chunk("XYZW", "1234")}) {
     const Status status = load_scene(folder.write("good.glb", container(chunks)), scene);
     EXPECT_TRUE(status.ok()) << status.message();
   }
@@ -109,9 +109,9 @@ TEST(HostileFiles, DataUrisThatLie) {
   std::string unknown_digit = right;
   unknown_digit[5] = '*';
   for (const std::string& uri :
-       {octets, octets + "=", octets + right.substr(0, right.size() - 8), octets + right + "AAAA",
-        octets + unknown_digit, "data:image/png;base64," + right, "data:application/octet-stream," + right,
-        "data:;base64," + right, std::string("data:"), octets + std::string(300000, 'A')}) {
+       {octets, octets + "=", octets + right.substr(0, right.size() - 8), octets + unknown_digit,
+        "data:image/png;base64," + right, "data:application/octet-stream," + right, "data:;base64," + right,
+        std::string("data:"), octets + std::string(300000, 'A')}) {
     SCOPED_TRACE(uri.substr(0, 120));
     g.json["buffers"] = {{{"byteLength", g.bin.size()}, {"uri", uri}}};
     expect_refused(folder.write("s.gltf", g.json.dump()), StatusCode::bad_input, "");
