@@ -14,7 +14,7 @@
 
 #include "io/atomic_file.h"
 #include "io/image_formats.h"
-#include "io/input_file.h"
+#include "io/image_input.h"
 #include "io/load_error.h"
 
 namespace umbrix::io {
@@ -28,9 +28,6 @@ struct Format {
 #define UMBRIX_FORMAT_ROW(name, extension) {extension, &detail::write_##name},
 constexpr Format kFormats[] = {UMBRIX_IMAGE_FORMATS(UMBRIX_FORMAT_ROW)};
 #undef UMBRIX_FORMAT_ROW
-
-// The most pixels that read_image takes, before memory is asked for.
-constexpr std::uint64_t kMaxFloats = 1ull << 31;
 
 Status failed(const std::string& path, const std::string& reason) {
   return {StatusCode::output_failed, detail::printable(path) + ": " + detail::one_line(reason)};
@@ -94,26 +91,17 @@ Status write_standard_output(const std::string& text) {
   return error == 0 ? Status() : failed("standard output", reason_of(error));
 }
 
-Status read_checked(const std::string& path, Image& out) {
-  if (Status status = detail::check_readable(path); !status) return status;
-  const auto bad = [&](const std::string& reason) {
-    return Status(StatusCode::bad_input, detail::printable(path) + ": " + detail::one_line(reason));
-  };
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) return bad(OIIO::geterror());
+void read_checked(const std::string& path, Image& out) {
+  const auto input = detail::open_image(path);
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) return bad("the image is empty");
-  const auto floats = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-  if (floats > kMaxFloats / static_cast<std::uint64_t>(spec.nchannels)) {
-    return {StatusCode::resource_limit, detail::printable(path) + ": the image is too large"};
-  }
   Image image;
   image.width = spec.width;
   image.height = spec.height;
   image.channels = spec.channelnames;
-  image.pixels.resize(floats * static_cast<std::uint64_t>(spec.nchannels));
+  image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    return bad(input->geterror());
+    detail::bad_input("{}", detail::one_line(input->geterror()));
   }
   for (const auto& attribute : spec.extra_attribs) {
     if (attribute.type() == OIIO::TypeDesc::TypeMatrix) {
@@ -124,7 +112,6 @@ Status read_checked(const std::string& path, Image& out) {
     }
   }
   out = std::move(image);
-  return {};
 }
 
 }  // namespace
@@ -155,7 +142,19 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
 
 Status read_image(const std::string& path, Image& out) {
   out = {};
-  return guarded(path, [&] { return read_checked(path, out); });
+  const auto refused = [&](StatusCode code, const std::string& what) {
+    return Status(code, detail::printable(path) + ": " + what);
+  };
+  try {
+    read_checked(path, out);
+    return {};
+  } catch (const detail::LoadError& e) {
+    return refused(e.code, e.what);
+  } catch (const std::bad_alloc&) {
+    return refused(StatusCode::resource_limit, "not enough memory");
+  } catch (const std::exception& e) {
+    return refused(StatusCode::bad_input, detail::one_line(e.what()));
+  }
 }
 
 Status write_text(const std::string& path, const std::string& text, bool overwrite) {

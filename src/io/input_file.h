@@ -16,4 +16,7 @@ Status check_readable(const std::string& path);
 /// grow. Throws LoadError without the file's name.
 std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limit);
 
+/// The first bytes of a regular file, at most `most`, and how many it has. Throws as read_file does.
+std::vector<unsigned char> read_start(const std::string& path, std::uint64_t most, std::uint64_t& file_bytes);
+
 }  // namespace umbrix::io::detail

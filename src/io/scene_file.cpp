@@ -52,8 +52,8 @@ void note_unread(Conversion& c) {
 void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
   const tinygltf::Model model = [&] {
     const GltfDocument document = read_gltf_document(path, limits);
-    const nlohmann::json root = parse_json(document.json);
-    check_gltf_json(root);
+    const nlohmann::json root = parse_json(document.json, limits);
+    check_gltf_json(root, limits);
     return parse_gltf(path, document, root, limits);
   }();
   scene.path = path;
