@@ -124,5 +124,20 @@ TEST(Surface, ErrorBoundReachesThePlaneAndTheOriginIsInFront) {
   }
 }
 
+TEST(Surface, NeedleWhoseAreaDoublesCannotHoldFacesTheViewer) {
+  // Not degenerate, but in double its edges are parallel.
+  io::Mesh mesh;
+  mesh.positions = {{0x1p-60f, 0, 0}, {1, 1, 0}, {2, 2, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  io::SceneFile scene = scene_of(mesh);
+  place(scene, 0);
+  World world;
+  ASSERT_TRUE(build_world(scene, {}, world).ok());
+  const Surface surface = look(world, {{1, 1, 3}, 0, {0, 0, -1}, kInfinity});
+  expect_near(surface.point, {1, 1, 0});
+  expect_near(surface.geometric_normal, {0, 0, 1});
+  expect_near(surface.shading_normal, {0, 0, 1});
+}
+
 }  // namespace
 }  // namespace umbrix::render
