@@ -7,6 +7,7 @@
 
 #include "render/bsdf.h"
 #include "render/lights/light.h"
+#include "render/shadow_ray.h"
 
 namespace umbrix::render {
 namespace {
@@ -21,22 +22,6 @@ void count_unreached(Unreached reason, LightStats& stats) {
 void count_route(RayRoute route, CameraSample& sample, LightStats& stats) {
   ++sample.routes[index_of(route)];
   ++stats.routes[index_of(route)];
-}
-
-/// From the surface to the light; to the light's own place, not along a rounded direction of unit length.
-Ray shadow_ray(const Surface& surface, const Arrival& arrival) {
-  float normal[3], toward[3];
-  store(surface.geometric_normal, normal);
-  store(glm::normalize(arrival.to_light), toward);
-  Ray ray;
-  offset_origin(surface.point, surface.point_error, normal, toward, ray.origin);
-  const Vec3 point(surface.point[0], surface.point[1], surface.point[2]);
-  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
-  const bool has_place = arrival.tmax == 1;
-  store(has_place ? arrival.to_light + (point - origin) : arrival.to_light, ray.direction);
-  ray.tmin = 0;
-  ray.tmax = arrival.tmax;
-  return ray;
 }
 
 }  // namespace
@@ -71,7 +56,7 @@ void DirectLight::gather(const io::Light& light, const std::vector<Surface>& sur
     const Surface& surface = surfaces[i];
 
     // Spend no ray where the light cannot reach, or where none of its light would be seen.
-    const Arrival arrival = kind.arrive(light, Vec3(surface.point[0], surface.point[1], surface.point[2]));
+    const Arrival arrival = kind.arrive(light, surface.point);
     if (arrival.unreached != Unreached::no) {
       count_unreached(arrival.unreached, stats);
       continue;

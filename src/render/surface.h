@@ -10,11 +10,11 @@ namespace umbrix::render {
 /// are opaque and look the same from both sides, whatever doubleSided says (shadow rays see both sides too).
 struct Surface {
   const io::Material* material = nullptr;
-  float point[3] = {};        ///< world space, rounded
-  float point_error[3] = {};  ///< bounds how far `point` is from the triangle's plane, per axis
-  Vec3 geometric_normal{0};   ///< unit
-  Vec3 shading_normal{0};     ///< unit; interpolated if the mesh has normals
-  Vec3 to_viewer{0};          ///< unit
+  Vec3 point{0};             ///< world space
+  Vec3 point_error{0};       ///< bounds how far `point` is from the triangle's plane, per axis
+  Vec3 geometric_normal{0};  ///< unit
+  Vec3 shading_normal{0};    ///< unit; interpolated if the mesh has normals
+  Vec3 to_viewer{0};         ///< unit
   Primitive primitive;
 };
 
