@@ -126,13 +126,13 @@ TEST_F(Invariance, ChosenLightsAndMoreSamples) {
   for (more.frame = 0; more.frame < 2; ++more.frame) expect_same(one, image(more));
 }
 
-TEST_F(Invariance, SimdTargets) {
+TEST_F(Invariance, SimdTargetsAndThreads) {
   const io::Image best = image(options());
   ASSERT_GE(simd_target_count(), 1u);
   for (std::size_t i = 0; i < simd_target_count(); ++i) {
     SCOPED_TRACE(simd_target_name(i));
     ASSERT_TRUE(use_simd_target(simd_target_name(i)).ok());
-    expect_same(best, image(options()));
+    for (const int threads : {1, 3, 7}) expect_same(best, image(options(), threads));
   }
 }
 
