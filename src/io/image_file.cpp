@@ -2,12 +2,15 @@
 #include "umbrix/io/image_file.h"
 
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
 #include "io/atomic_file.h"
 #include "io/image_formats.h"
@@ -19,7 +22,7 @@ namespace {
 
 struct Format {
   const char* extension;
-  Status (*write)(const std::string& path, const Image& image, const WriteOptions& options);
+  Status (*write)(detail::AtomicFile& file, const Image& image, const WriteOptions& options);
 };
 
 #define UMBRIX_FORMAT_ROW(name, extension) {extension, &detail::write_##name},
@@ -65,10 +68,27 @@ Status guarded(const std::string& path, Step step) {
   try {
     return step();
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, detail::printable(path) + ": not enough memory"};
+    return detail::out_of_memory(path);
   } catch (const std::exception& e) {
     return failed(path, e.what());
   }
+}
+
+std::string reason_of(int error) { return std::generic_category().message(error); }
+
+Status write_standard_output(const std::string& text) {
+  // What others printed before comes first.
+  const char* next = text.data();
+  int error = std::fflush(stdout) == 0 ? 0 : errno;
+  for (std::size_t left = text.size(); left > 0 && error == 0;) {
+    const ssize_t done = ::write(STDOUT_FILENO, next, left);
+    if (done < 0 && errno != EINTR) error = errno;
+    if (done <= 0) continue;
+    next += done;
+    left -= static_cast<std::size_t>(done);
+  }
+  if (error == EPIPE) return {StatusCode::cancelled, "standard output: nobody reads it any more"};
+  return error == 0 ? Status() : failed("standard output", reason_of(error));
 }
 
 void read_checked(const std::string& path, Image& out) {
@@ -113,7 +133,7 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
     }
     detail::AtomicFile file;
     if (Status status = file.begin(path, options.overwrite); !status) return status;
-    if (Status status = format->write(file.temporary(), image, options); !status) {
+    if (Status status = format->write(file, image, options); !status) {
       return {status.code(), detail::printable(path) + ": " + detail::one_line(status.message())};
     }
     return file.commit();
@@ -139,17 +159,10 @@ Status read_image(const std::string& path, Image& out) {
 
 Status write_text(const std::string& path, const std::string& text, bool overwrite) {
   return guarded(path, [&]() -> Status {
-    if (path == "-") {
-      const bool done = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-      return done ? Status() : failed("standard output", "cannot be written");
-    }
+    if (path == "-") return write_standard_output(text);
     detail::AtomicFile file;
     if (Status status = file.begin(path, overwrite); !status) return status;
-    std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");
-    if (!stream) return failed(path, "cannot be created");
-    const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-    const bool closed = std::fclose(stream) == 0;
-    if (!written || !closed) return failed(path, "cannot be written; is the disk full?");
+    if (const int error = file.write(text.data(), text.size(), 0)) return failed(path, reason_of(error));
     return file.commit();
   });
 }

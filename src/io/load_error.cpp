@@ -51,6 +51,12 @@ std::string printable(std::string_view text, std::size_t limit) {
   return out;
 }
 
+Status out_of_memory(const std::string& path) noexcept try {
+  return {StatusCode::resource_limit, printable(path) + ": not enough memory"};
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("not enough memory for a file");
+}
+
 std::string one_line(std::string_view text) {
   constexpr std::size_t kLongest = 240;
   return printable(text.substr(0, text.find_first_of("\r\n")), kLongest);

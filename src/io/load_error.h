@@ -32,6 +32,9 @@ template <class... Args>
 /// `limit` bytes long at most.
 std::string printable(std::string_view text, std::size_t limit = 256);
 
+/// resource_limit for a file, if there is memory to name it. Does not throw.
+Status out_of_memory(const std::string& path) noexcept;
+
 /// The first line of a library's message, made printable and cut, so that data in it cannot flood the terminal.
 std::string one_line(std::string_view text);
 

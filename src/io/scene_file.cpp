@@ -93,7 +93,8 @@ Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& lim
   } catch (const detail::LoadError& e) {
     return failed(e.code, e.what);
   } catch (const std::bad_alloc&) {
-    return failed(StatusCode::resource_limit, "not enough memory");
+    out = {};
+    return detail::out_of_memory(path);
   } catch (const std::length_error&) {
     return failed(StatusCode::resource_limit, "not enough memory");
   } catch (const std::exception& e) {
