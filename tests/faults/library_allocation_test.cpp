@@ -70,9 +70,9 @@ std::vector<Input> inputs() {
   for (int i = 0; i < 40; ++i) same.insert(same.end(), {-0.5f, -0.5f, 0, 0.5f, -0.5f, 0, 0, 0.5f, 0});
   std::vector<Input> list = {{"one triangle", {-0.5f, -0.5f, 0, 0.5f, -0.5f, 0, 0, 0.5f, 0}, {}, {}},
                              {"coincident triangles", same, {}, {}},
-                             {"terrain", terrain(24), {}, {}},
-                             {"soup", soup(600, 0.2f, random), {}, {}},
-                             {"small and large", soup(300, 1.0f, random), {}, {}}};
+                             {"terrain", terrain(12), {}, {}},
+                             {"soup", soup(200, 0.2f, random), {}, {}},
+                             {"small and large", soup(100, 1.0f, random), {}, {}}};
   std::uniform_real_distribution<float> u(-1.2f, 1.2f);
   for (Input& input : list) {
     for (int i = 0; i < 256; ++i) {
