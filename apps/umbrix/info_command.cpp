@@ -43,9 +43,22 @@ Json lights(const io::SceneFile& scene) {
                   {"type", io::light_type_info(light.type).name},
                   {"color", light.color},
                   {"intensity", light.intensity}};
-    if (io::light_type_info(light.type).has_position) entry["position"] = light.position;
-    if (io::light_type_info(light.type).has_direction) entry["direction"] = light.direction;
+    if (io::light_type_info(light.type).has(io::kHasPosition)) entry["position"] = light.position;
+    if (io::light_type_info(light.type).has(io::kHasDirection)) entry["direction"] = light.direction;
     list.push_back(entry);
+  }
+  return list;
+}
+
+/// Meshes that are lights, by the light that each instance makes.
+Json emissive_meshes(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (const io::Light& light : io::emissive_lights(scene)) {
+    const io::Mesh& mesh = scene.meshes[scene.instances[light.instance].mesh];
+    list.push_back({{"name", light.name},
+                    {"triangles", mesh.triangles.size()},
+                    {"radiance", light.color},
+                    {"double_sided", scene.materials[mesh.material].double_sided}});
   }
   return list;
 }
@@ -83,6 +96,7 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"bounds", bounds(meshes)},
           {"cameras", cameras(scene)},
           {"lights", lights(scene)},
+          {"emissive_meshes", emissive_meshes(scene)},
           {"extensions_used", scene.extensions_used},
           {"ignored", scene.ignored},
           {"warnings", warnings}};

@@ -70,6 +70,7 @@ constexpr Rule kBodyRules[] = {
     {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number},
     {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
     {"materials[].emissiveFactor", Kind::numbers, nullptr, 3},
+    {"materials[].emissiveTexture.index", Kind::index, "textures", 0, true},
     {"materials[].alphaMode", Kind::string},
     {"materials[].alphaCutoff", Kind::number},
     {"materials[].doubleSided", Kind::boolean},

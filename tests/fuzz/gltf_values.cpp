@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes as the numbers of a .glb whose form is right: views, accessors, primitives, nodes, animations. What JSON can
 // get wrong is left to the other targets; this one is about values that do not fit each other.
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,16 +16,27 @@ using namespace umbrix;
 using fuzz::ByteStream;
 using nlohmann::json;
 
-// Small numbers mostly, and those at which arithmetic breaks.
-std::uint64_t take_size(ByteStream& bytes) {
+// Numbers at which arithmetic breaks.
+std::uint64_t take_odd_size(ByteStream& bytes) {
   constexpr std::uint64_t kEdges[] = {0,          1u << 24,   0x7FFFFFFF, 0x80000000u, 0xFFFFFFFFu,
                                       1ull << 32, 1ull << 53, 1ull << 62, ~0ull};
-  return bytes.chance(16) ? bytes.one_of(kEdges) : bytes.take<std::uint8_t>();
+  return bytes.chance(2) ? bytes.one_of(kEdges) : bytes.take<std::uint8_t>();
+}
+
+// One in so many is odd; were it more, hardly a file would get past the first checks.
+constexpr std::size_t kOddOneIn = 32;
+
+std::uint64_t take_size(ByteStream& bytes, std::size_t limit) {
+  return bytes.chance(kOddOneIn) ? take_odd_size(bytes) : bytes.below(limit);
 }
 
 double take_real(ByteStream& bytes) {
-  if (bytes.chance(8)) return bytes.take<float>();
+  if (bytes.chance(kOddOneIn)) return bytes.take<float>();
   return bytes.take<std::int8_t>() / 16.0;
+}
+
+double take_positive(ByteStream& bytes) {
+  return bytes.chance(kOddOneIn) ? take_real(bytes) : (1 + bytes.take<std::uint8_t>()) / 128.0;
 }
 
 json reals(ByteStream& bytes, int count) {
@@ -33,61 +45,107 @@ json reals(ByteStream& bytes, int count) {
   return out;
 }
 
-// A few bytes into the buffer are floats of one sign, so that not every vertex is nonsense.
+// Words that are floats, indices of 8, 16 or 32 bits, or anything.
 std::string take_buffer(ByteStream& bytes) {
-  std::string buffer(4 * bytes.below(64) + bytes.below(4), '\0');
-  for (char& byte : buffer) byte = static_cast<char>(bytes.take<std::uint8_t>());
+  std::string buffer;
+  const std::size_t words = 16 + bytes.below(48);
+  for (std::size_t i = 0; i < words; ++i) {
+    std::uint32_t word = 0;
+    switch (bytes.below(5)) {
+      case 0:
+        word = bytes.take<std::uint32_t>();
+        break;
+      case 1:
+        word = bytes.take<std::uint32_t>() & 0x03030303u;
+        break;
+      case 2:
+        word = bytes.take<std::uint32_t>() & 0x00030003u;
+        break;
+      case 3:
+        word = bytes.take<std::uint8_t>() & 3u;
+        break;
+      default: {
+        const auto number = static_cast<float>(take_real(bytes));
+        std::memcpy(&word, &number, sizeof word);
+      }
+    }
+    buffer.append(reinterpret_cast<const char*>(&word), sizeof word);
+  }
   return buffer;
 }
 
 void add_views(ByteStream& bytes, json& root, std::size_t buffer_bytes) {
   const std::size_t count = 1 + bytes.below(4);
   for (std::size_t i = 0; i < count; ++i) {
-    json view = {{"buffer", 0}, {"byteLength", buffer_bytes}};
-    if (bytes.chance(3)) view["byteOffset"] = take_size(bytes);
-    if (bytes.chance(3)) view["byteLength"] = take_size(bytes);
-    if (bytes.chance(4)) view["byteStride"] = take_size(bytes);
+    const std::uint64_t offset = bytes.chance(kOddOneIn) ? take_odd_size(bytes) : 4 * bytes.below(8);
+    const std::uint64_t length = bytes.chance(kOddOneIn) ? take_odd_size(bytes) : buffer_bytes - offset;
+    json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}};
+    if (bytes.chance(4)) view["byteStride"] = bytes.chance(kOddOneIn) ? take_odd_size(bytes) : 4 + 4 * bytes.below(8);
     root["bufferViews"].push_back(view);
   }
 }
 
-int take_component_type(ByteStream& bytes) {
-  constexpr int kTypes[] = {5126, 5126, 5126, 5120, 5121, 5122, 5123, 5125, 5124, 5130};
-  return bytes.one_of(kTypes);
+constexpr int kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126, 5124, 5130};
+constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT4"};
+
+struct Form {
+  int component_type;
+  const char* type;
+  bool normalized;
+};
+
+// What the loader reads, with and without KHR_mesh_quantization.
+Form take_form(ByteStream& bytes) {
+  constexpr Form kForms[] = {{5126, "VEC3", false},   {5126, "VEC3", false},   {5126, "VEC2", false},
+                             {5126, "SCALAR", false}, {5126, "VEC4", false},   {5121, "SCALAR", false},
+                             {5123, "SCALAR", false}, {5125, "SCALAR", false}, {5122, "VEC3", true},
+                             {5120, "VEC3", true},    {5123, "VEC2", true},    {5122, "VEC4", true},
+                             {5121, "VEC3", false},   {5122, "VEC2", false}};
+  if (!bytes.chance(kOddOneIn)) return bytes.one_of(kForms);
+  return {bytes.one_of(kComponentTypes), bytes.one_of(kTypes), bytes.chance(2)};
 }
 
 void add_accessors(ByteStream& bytes, json& root) {
-  constexpr const char* kTypes[] = {"VEC3", "VEC3", "SCALAR", "VEC2", "VEC4", "MAT4", "MAT2"};
-  const std::size_t views = root["bufferViews"].size(), count = 1 + bytes.below(6);
+  const std::size_t views = root["bufferViews"].size(), count = 2 + bytes.below(6);
   for (std::size_t i = 0; i < count; ++i) {
-    json accessor = {{"componentType", take_component_type(bytes)},
-                     {"count", bytes.chance(4) ? take_size(bytes) : bytes.below(8)},
-                     {"type", bytes.one_of(kTypes)}};
-    if (!bytes.chance(6)) accessor["bufferView"] = bytes.below(views);
-    if (bytes.chance(4)) accessor["byteOffset"] = take_size(bytes);
-    if (bytes.chance(4)) accessor["normalized"] = true;
-    if (bytes.chance(4)) {
-      accessor["sparse"] = {{"count", bytes.chance(4) ? take_size(bytes) : bytes.below(4)},
+    const Form form = take_form(bytes);
+    json accessor = {{"componentType", form.component_type}, {"count", take_size(bytes, 7)}, {"type", form.type}};
+    if (form.normalized) accessor["normalized"] = true;
+    if (!bytes.chance(8)) accessor["bufferView"] = bytes.below(views);
+    if (bytes.chance(4)) accessor["byteOffset"] = 4 * take_size(bytes, 5);
+    if (bytes.chance(6)) {
+      accessor["sparse"] = {{"count", take_size(bytes, 4)},
                             {"indices",
                              {{"bufferView", bytes.below(views)},
-                              {"byteOffset", bytes.below(16)},
-                              {"componentType", take_component_type(bytes)}}},
-                            {"values", {{"bufferView", bytes.below(views)}, {"byteOffset", bytes.below(16)}}}};
+                              {"byteOffset", 4 * take_size(bytes, 5)},
+                              {"componentType", bytes.chance(kOddOneIn) ? 5126 : 5121 + 2 * bytes.below(3)}}},
+                            {"values", {{"bufferView", bytes.below(views)}, {"byteOffset", 4 * take_size(bytes, 5)}}}};
     }
     root["accessors"].push_back(accessor);
   }
 }
 
+// An accessor of a type, if there is one.
+std::size_t take_accessor(ByteStream& bytes, const json& root, const char* type) {
+  const json& accessors = root["accessors"];
+  const std::size_t start = bytes.below(accessors.size());
+  for (std::size_t i = 0; i < accessors.size() && !bytes.chance(kOddOneIn); ++i) {
+    const std::size_t candidate = (start + i) % accessors.size();
+    if (accessors[candidate]["type"] == type) return candidate;
+  }
+  return start;
+}
+
 void add_meshes(ByteStream& bytes, json& root) {
-  const std::size_t accessors = root["accessors"].size(), count = 1 + bytes.below(2);
+  const std::size_t count = 1 + bytes.below(2);
   for (std::size_t i = 0; i < count; ++i) {
     json primitives = json::array();
     const std::size_t parts = 1 + bytes.below(3);
     for (std::size_t p = 0; p < parts; ++p) {
-      json primitive = {{"attributes", {{"POSITION", bytes.below(accessors)}}}};
-      if (bytes.chance(3)) primitive["attributes"]["NORMAL"] = bytes.below(accessors);
-      if (bytes.chance(3)) primitive["attributes"]["TEXCOORD_0"] = bytes.below(accessors);
-      if (bytes.chance(2)) primitive["indices"] = bytes.below(accessors);
+      json primitive = {{"attributes", {{"POSITION", take_accessor(bytes, root, "VEC3")}}}};
+      if (bytes.chance(6)) primitive["attributes"]["NORMAL"] = take_accessor(bytes, root, "VEC3");
+      if (bytes.chance(6)) primitive["attributes"]["TEXCOORD_0"] = take_accessor(bytes, root, "VEC2");
+      if (bytes.chance(2)) primitive["indices"] = take_accessor(bytes, root, "SCALAR");
       if (bytes.chance(2)) primitive["mode"] = bytes.below(8);
       primitives.push_back(primitive);
     }
@@ -96,16 +154,14 @@ void add_meshes(ByteStream& bytes, json& root) {
 }
 
 void add_cameras_and_lights(ByteStream& bytes, json& root) {
-  root["cameras"].push_back({{"type", "perspective"}, {"perspective", {{"yfov", take_real(bytes)}, {"znear", 0.1}}}});
-  root["cameras"].push_back({{"type", "orthographic"},
-                             {"orthographic",
-                              {{"xmag", take_real(bytes)},
-                               {"ymag", take_real(bytes)},
-                               {"znear", take_real(bytes)},
-                               {"zfar", take_real(bytes)}}}});
-  json light = {{"type", bytes.chance(2) ? "spot" : "point"}, {"intensity", take_real(bytes)}};
-  if (bytes.chance(2)) light["range"] = take_real(bytes);
-  light["spot"] = {{"innerConeAngle", take_real(bytes)}, {"outerConeAngle", take_real(bytes)}};
+  root["cameras"] = {
+      {{"type", "perspective"}, {"perspective", {{"yfov", take_positive(bytes)}, {"znear", take_positive(bytes)}}}},
+      {{"type", "orthographic"},
+       {"orthographic",
+        {{"xmag", take_real(bytes)}, {"ymag", take_real(bytes)}, {"znear", 0}, {"zfar", take_positive(bytes)}}}}};
+  json light = {{"type", bytes.chance(2) ? "spot" : "directional"}, {"intensity", take_positive(bytes)}};
+  if (bytes.chance(2)) light["range"] = take_positive(bytes);
+  light["spot"] = {{"innerConeAngle", take_positive(bytes) / 8}, {"outerConeAngle", take_positive(bytes)}};
   root["extensions"]["KHR_lights_punctual"]["lights"] = {light};
   root["extensionsUsed"] = {"KHR_lights_punctual"};
   if (bytes.chance(2)) root["extensionsUsed"].push_back("KHR_mesh_quantization");
@@ -128,7 +184,7 @@ void add_nodes(ByteStream& bytes, json& root) {
       default:
         break;
     }
-    if (i + 1 < count && bytes.chance(2)) node["children"] = {bytes.chance(16) ? bytes.below(count) : i + 1};
+    if (i + 1 < count && bytes.chance(2)) node["children"] = {bytes.chance(kOddOneIn) ? bytes.below(count) : i + 1};
     if (bytes.chance(3)) node["translation"] = reals(bytes, 3);
     if (bytes.chance(3)) node["rotation"] = reals(bytes, 4);
     if (bytes.chance(3)) node["scale"] = reals(bytes, 3);
@@ -140,13 +196,14 @@ void add_nodes(ByteStream& bytes, json& root) {
 void add_animation(ByteStream& bytes, json& root) {
   constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
   constexpr const char* kWays[] = {"LINEAR", "STEP", "CUBICSPLINE"};
-  const std::size_t accessors = root["accessors"].size(), channels = bytes.below(4);
+  const std::size_t channels = bytes.below(4);
   for (std::size_t i = 0; i < channels; ++i) {
-    root["animations"][0]["samplers"].push_back({{"input", bytes.below(accessors)},
-                                                 {"output", bytes.below(accessors)},
+    const std::size_t path = bytes.below(4);
+    root["animations"][0]["samplers"].push_back({{"input", take_accessor(bytes, root, "SCALAR")},
+                                                 {"output", take_accessor(bytes, root, path == 1 ? "VEC4" : "VEC3")},
                                                  {"interpolation", bytes.one_of(kWays)}});
     root["animations"][0]["channels"].push_back(
-        {{"sampler", i}, {"target", {{"node", bytes.below(root["nodes"].size())}, {"path", bytes.one_of(kPaths)}}}});
+        {{"sampler", i}, {"target", {{"node", bytes.below(root["nodes"].size())}, {"path", kPaths[path]}}}});
   }
 }
 
