@@ -181,15 +181,18 @@ TEST(LibraryAllocation, EveryFailureIsAStatusAndEveryAnswerRight) {
     for (std::uint64_t n = 1; n <= count; n += step) {
       for (const bool all_after : {false, true}) {
         Pass pass(input);
+        const std::int64_t before = FailingAllocator::live();
         {
           const FailingAllocator failing(n, all_after);
           pass.run();
         }
-        const bool good = pass.unexpected == StatusCode::ok && !pass.silent && pass.wrong == 0;
+        const std::int64_t leaked = FailingAllocator::live() - before;
+        const bool good = pass.unexpected == StatusCode::ok && !pass.silent && pass.wrong == 0 && leaked == 0;
         ++runs;
         failures += good ? 0 : 1;
         ASSERT_TRUE(good) << input.name << ", request " << n << (all_after ? " and all after" : "") << ": "
-                          << static_cast<int>(pass.unexpected) << ", " << pass.wrong << " answers are wrong";
+                          << static_cast<int>(pass.unexpected) << ", " << pass.wrong << " answers are wrong, " << leaked
+                          << " objects leaked";
       }
     }
   }
