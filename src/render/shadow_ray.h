@@ -6,8 +6,12 @@
 
 namespace umbrix::render {
 
-/// From the surface to where the light comes from: to the light's own place at t = 1, not along a rounded direction of
-/// unit length. It starts in front of the surface's triangle, on the side of its geometric normal.
-Ray shadow_ray(const Surface& surface, const Arrival& arrival);
+/// The surface point as lights need it.
+Receiver receiver_at(const Surface& surface);
+
+/// From the surface to the light: to the light's own place, not along a rounded direction of unit length. Its end is on
+/// the side of the light that shines, by the rounding error of the end, so that what the light is part of, or lies on,
+/// does not shadow it; whatever is further in front does.
+Ray shadow_ray(const Receiver& receiver, const Arrival& arrival);
 
 }  // namespace umbrix::render

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The point comes from the triangle's exact vertices, not from origin + t * direction (after Pharr, Jakob & Humphreys
 // 2023, section 6.8.5): any barycentric coordinates give a point of the triangle's plane, so their own error moves it
-// only within the plane. What is left is the rounding of the double arithmetic here, and once to float in shadow_ray.
+// only within the plane. What is left is the rounding of the double arithmetic here, and once to float, where
+// shadow rays start.
 #include "render/surface.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace umbrix::render {
 namespace {
@@ -91,6 +93,20 @@ void set_point(const Corners& corners, const Barycentrics& b, Surface& surface) 
   surface.point_error = 0x1p-50 * (glm::abs(base) + glm::abs(along) + glm::abs(across));
 }
 
+/// The point as floats, moved off the surface by how far they are from the triangle's plane: their rounding, known to
+/// the last bit, and the point's own error.
+Vec3 origin_before(const Surface& surface) {
+  float point[3], error[3], normal[3], origin[3];
+  store(surface.point, point);
+  const Vec3 bound = glm::abs(load(point) - surface.point) + surface.point_error;
+  for (int axis = 0; axis < 3; ++axis) {
+    error[axis] = std::nextafter(static_cast<float>(bound[axis]), std::numeric_limits<float>::infinity());
+  }
+  store(surface.geometric_normal, normal);
+  offset_origin(point, error, normal, normal, origin);
+  return load(origin);
+}
+
 }  // namespace
 
 Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
@@ -117,12 +133,15 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   Vec3 geometric = area > 0 ? normal / area : surface.to_viewer;
   if (mesh.mirrored) geometric = -geometric;
   Vec3 shading = shading_normal(world, mesh, indices, b, geometric);
-  if (glm::dot(geometric, surface.to_viewer) < 0) {
+  const bool behind = glm::dot(geometric, surface.to_viewer) < 0;
+  if (behind) {
     geometric = -geometric;
     shading = -shading;
   }
   surface.geometric_normal = geometric;
   surface.shading_normal = shading;
+  surface.emits = !behind || surface.material->double_sided;
+  surface.origin = origin_before(surface);
   return surface;
 }
 

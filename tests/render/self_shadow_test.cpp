@@ -102,12 +102,13 @@ void look(const World& world, const io::Camera& described, int pixels, const Vec
     Hit hit;
     if (!world.scene.closest(ray, hit) || !counts(hit.primitive.triangle)) continue;
     const Surface surface = surface_at(world, ray, hit);
-    const Arrival arrival = light_kind(lamp.type).arrive(lamp, surface.point);
+    const Receiver receiver = receiver_at(surface);
+    const Arrival arrival = make_light(lamp, world)->sample(receiver, {});
     if (glm::dot(surface.geometric_normal, arrival.to_light) <= 0) continue;
     QueryOptions query;
     query.skip = &surface.primitive;
     ++tally.rays;
-    tally.occluded += world.scene.occluded(shadow_ray(surface, arrival), query);
+    tally.occluded += world.scene.occluded(shadow_ray(receiver, arrival), query);
   }
 }
 

@@ -117,7 +117,7 @@ TEST(Surface, ErrorBoundReachesThePlaneAndTheOriginIsInFront) {
 
     Arrival arrival;
     arrival.to_light = surface.geometric_normal;
-    const Ray shadow = shadow_ray(surface, arrival);
+    const Ray shadow = shadow_ray(receiver_at(surface), arrival);
     const bool upward = glm::dot(cross, surface.geometric_normal) > 0;
     const Exact height = above_plane(Vec3(shadow.origin[0], shadow.origin[1], shadow.origin[2]));
     EXPECT_GT(upward ? height : -height, 0);
