@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "heat_map_files.h"
+#include "memory_guard.h"
 #include "progress.h"
-#include "signals.h"
 #include "stopwatch.h"
 #include "umbrix/version.h"
 
@@ -19,6 +19,7 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
   image.metadata = {{"Software", fmt::format("umbrix {}", version_string())},
                     {"umbrix:seed", std::to_string(a.seed)},
                     {"umbrix:spp", std::to_string(a.samples)}};
+  if (a.light_samples > 1) image.metadata.emplace_back("umbrix:light_samples", std::to_string(a.light_samples));
   if (frame.number) image.metadata.emplace_back("umbrix:frame", std::to_string(*frame.number));
   if (a.crop) {
     const render::Crop& c = *a.crop;
@@ -28,7 +29,7 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
 }
 
 Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
-  const SignalScope stop(OnSignal::stop);
+  set_phase("rendering");
   const Stopwatch watch;
   render::RenderOptions options = render_options(job);
   if (job.arguments.kernel_name == "auto") options.tracer = &job.tracer;
@@ -40,11 +41,9 @@ Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& 
   return status;
 }
 
-/// All files of the frame or, after an interruption, none.
 Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, FrameReport& report) {
-  const SignalScope hold(OnSignal::hold);
+  set_phase("writing images");
   const Stopwatch watch;
-  if (interrupted()) return {StatusCode::cancelled, "interrupted"};
   add_metadata(job, frame, image);
   for (const std::string& path : frame.outputs) {
     if (Status status = io::write_image(path, image, job.arguments.write); !status) return status;
@@ -84,11 +83,11 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.height = job.size.height;
   options.crop = a.crop;
   options.samples = a.samples;
+  options.light_samples = a.light_samples;
   options.seed = a.seed;
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;
   options.count_work = !a.stats.empty();
-  options.cancel = &interrupted();
   return options;
 }
 

@@ -6,6 +6,8 @@
 #include <exception>
 #include <mutex>
 
+#include "core/threads_executor.h"
+
 namespace umbrix::detail {
 namespace {
 
@@ -29,6 +31,9 @@ struct GuardedBody {
 }  // namespace
 
 void parallel_for(const Executor* executor, std::size_t count, const std::function<void(std::size_t)>& body) {
+#ifdef UMBRIX_THREAD_SANITIZER
+  if (!executor || !executor->parallel_for) executor = &threads_executor();
+#endif
   if (!executor || !executor->parallel_for) {
     tbb::parallel_for(std::size_t{0}, count, body);
     return;
@@ -36,6 +41,14 @@ void parallel_for(const Executor* executor, std::size_t count, const std::functi
   GuardedBody guarded{body, nullptr, {}};
   executor->parallel_for(executor->context, count, &GuardedBody::call, &guarded);
   if (guarded.first) std::rethrow_exception(guarded.first);
+}
+
+Status parallel_failure(const char* who, const Executor* executor, const std::exception& error) noexcept try {
+  if (executor && executor->parallel_for)
+    return {StatusCode::internal, std::string(who) + ": the executor failed: " + error.what()};
+  return {StatusCode::resource_limit, std::string(who) + ": no threads: " + error.what()};
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("no threads");
 }
 
 }  // namespace umbrix::detail

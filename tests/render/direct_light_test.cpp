@@ -8,11 +8,10 @@
 #include <numeric>
 
 #include "built_scenes.h"
+#include "render/vec.h"
 
 namespace umbrix::render {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Rendered {
   io::Image image;
