@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A case runs in rounds. In a round some chunks of rays, each with a scene of its own, are judged side by side on one
-// instruction set; then a small chunk is asked everything on all of them. A case with one scene is one chunk.
+// A case runs in rounds. In a round a small chunk of rays is asked everything on all instruction sets; then some larger
+// ones, each with a scene of its own, are judged side by side on one of them. A case with one scene is one chunk.
 #include "stress/case_run.h"
 
 #include <fmt/core.h>
