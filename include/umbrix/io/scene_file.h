@@ -144,8 +144,8 @@ struct LoadLimits {
   std::uint64_t list_elements = 1'000'000;  ///< of accessors, buffer views, meshes, materials, ...: each
   std::uint64_t nodes = 1'000'000;
   std::uint32_t node_depth = 256;
-  std::uint64_t triangles = 1ull << 29;           ///< over all instances
-  std::uint64_t decoded_bytes = 0;                ///< of all accessors' values; 0: three quarters of the machine's memory
+  std::uint64_t triangles = 1ull << 29;  ///< over all instances
+  std::uint64_t decoded_bytes = 0;       ///< of all accessors' values; 0: three quarters of the machine's memory
   std::uint64_t environment_pixels = 1ull << 27;  ///< 16384 x 8192
   bool allow_paths_outside = false;               ///< files named by a file, outside its folder
 };
