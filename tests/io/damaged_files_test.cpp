@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files cut at every byte and with every bit flipped: each loads or is refused in one line. Nothing is asserted on
+// Files cut at every byte and with bits flipped: each loads or is refused in one line. Nothing is asserted on
 // which; sanitizers and the promises of loading.h judge.
 
 #include <gtest/gtest.h>
@@ -58,16 +58,18 @@ TEST(DamagedFiles, CutAnywhereWithAHeaderThatAdmitsIt) {
   }
 }
 
-TEST(DamagedFiles, AnyBitFlipped) {
+// Every third bit, or one of each byte of text, each byte another.
+TEST(DamagedFiles, BitsFlipped) {
   const TempFolder folder;
-  for (const auto& [name, bytes] :
-       {std::pair("flipped.glb", rich_file().glb()), {"flipped.gltf", rich_file().text()}}) {
-    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+  const auto try_flips = [&](const std::string& name, const std::string& bytes, std::size_t step) {
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += step) {
       std::string flipped = bytes;
       flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
       fuzz::check_loading(folder.write(name, flipped), true);
     }
-  }
+  };
+  try_flips("flipped.glb", rich_file().glb(), 3);
+  try_flips("flipped.gltf", rich_file().text(), 9);
 }
 
 }  // namespace
