@@ -67,6 +67,8 @@ void check_pattern(const std::string& path) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::vector<std::string> lines = split_lines(data, size);
   check_arguments(lines);
+  constexpr std::size_t kMostLists = 8;  // a list of the most frames takes a sanitizer half a second
+  if (lines.size() > kMostLists) return 0;
   for (const std::string& line : lines) {
     check_frame_list(line);
     check_pattern(line);

@@ -162,7 +162,7 @@ void add_cameras_and_lights(ByteStream& bytes, json& root) {
   json light = {{"type", bytes.chance(2) ? "spot" : "directional"}, {"intensity", take_positive(bytes)}};
   if (bytes.chance(2)) light["range"] = take_positive(bytes);
   light["spot"] = {{"innerConeAngle", take_positive(bytes) / 8}, {"outerConeAngle", take_positive(bytes)}};
-  root["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+  root["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
   root["extensionsUsed"] = {"KHR_lights_punctual"};
   if (bytes.chance(2)) root["extensionsUsed"].push_back("KHR_mesh_quantization");
 }

@@ -103,6 +103,15 @@ void check_light(const Light& light) {
     squares += light.direction[k] * light.direction[k];
   }
   promise(std::abs(squares - 1) < 1e-6, "a light's direction is of unit length");
+  for (const io::Double3& edge : light.half_edges) {
+    for (const double x : edge) promise(std::isfinite(x), "a light's edges are finite");
+  }
+  promise(std::isfinite(light.radius) && light.radius >= 0 && std::isfinite(light.rotation),
+          "a light's size is finite");
+  if (light.environment) {
+    const io::EnvironmentMap& map = *light.environment;
+    promise(map.pixels.size() == std::size_t{map.width} * map.height && map.width > 0, "a map is whole");
+  }
   promise(light.inner_cone_angle >= 0 && light.outer_cone_angle > 0 && light.inner_cone_angle <= light.outer_cone_angle,
           "a light's cones are in order");
 }

@@ -142,6 +142,8 @@ void write_setups(const fs::path& out) {
       R"([{"file":"triangle.glb","camera":{"keyframes":[{"frame":1,"eye":[0,0,5],"target":[0,0,0]},{"frame":9,"eye":[1,0,5]},{"frame":20.5,"up":[1,0,0],"fov_y_degrees":9}],"interpolation":"smooth"}}])");
   setups.add(
       R"([{"name":"triangle","lights":[{"type":"spot","name":"l","position":[0,1,0],"direction":[0,-1,0],"color":[1,1,1],"intensity":5,"range":9,"inner_cone_degrees":10,"outer_cone_degrees":30},{"type":"point","position":[1,1,1]},{"type":"directional","direction":[1,1,1]}]}])");
+  setups.add(
+      R"({"lights":[{"type":"rectangle","position":[0,1,0],"direction":[0,-1,0],"up":[0,0,1],"width":2,"height":1,"radiance":[1,2,3]},{"type":"sphere","position":[0,2,0],"radius":0.5,"power":60,"color":[1,0,1]},{"type":"environment","file":"sky.exr","rotation_degrees":30,"radiance":2}]})");
 }
 
 void write_arguments(const fs::path& out) {

@@ -3,6 +3,7 @@
 #include "input_folder.h"
 #include "loading.h"
 #include "promise.h"
+#include "umbrix/io/image_file.h"
 
 namespace {
 
@@ -17,11 +18,23 @@ umbrix::io::SceneFile one_triangle() {
   return scene;
 }
 
+// "sky.exr" lies beside the setup file.
+void write_sky(const umbrix::fuzz::InputFolder& folder) {
+  umbrix::io::Image image;
+  image.width = 4;
+  image.height = 2;
+  image.channels = {"R", "G", "B"};
+  image.pixels.assign(24, 0.5f);
+  umbrix::fuzz::promise(umbrix::io::write_image(folder.path("sky.exr"), image, {}).ok(), "a map can be written");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace umbrix;
   static const fuzz::InputFolder folder;
+  static const bool has_sky = (write_sky(folder), true);
+  (void)has_sky;
   static const io::SceneFile scene = one_triangle();
   io::Setup setup;
   const Status status = io::load_setup(folder.write("setup.json", data, size), scene, setup);

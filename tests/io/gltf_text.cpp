@@ -72,7 +72,7 @@ int Gltf::indices(const std::vector<std::uint16_t>& values) {
 }
 
 int Gltf::mesh(const nlohmann::json& primitive) {
-  json["meshes"].push_back({{"primitives", {primitive}}});
+  json["meshes"].push_back({{"primitives", nlohmann::json::array({primitive})}});
   return static_cast<int>(json["meshes"].size()) - 1;
 }
 

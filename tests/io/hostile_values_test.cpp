@@ -34,7 +34,7 @@ void add_camera(Gltf& g, const char* type, const json& numbers) {
 }
 
 void add_light(Gltf& g, const json& light) {
-  g.json["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+  g.json["extensions"]["KHR_lights_punctual"]["lights"] = json::array({light});
   node(g)["extensions"]["KHR_lights_punctual"]["light"] = 0;
 }
 
