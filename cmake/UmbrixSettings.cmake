@@ -15,9 +15,10 @@ function(umbrix_settings target)
     CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON
     POSITION_INDEPENDENT_CODE ON)
-  # One rounding per operation, on every machine: plane times and slow paths depend on it.
+  # One rounding per operation, on every machine: plane times, slow paths and ray origins depend on it. GCC 12's SLP
+  # vectoriser loses the rounding of doubles that go to floats and back, three at a time.
   target_compile_options(${target} PRIVATE
-    -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+    -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize> -Wall -Wextra -Wpedantic -Wconversion -Wshadow
     $<$<BOOL:${UMBRIX_WERROR}>:-Werror>)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "SHARED_LIBRARY" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
