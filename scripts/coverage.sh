@@ -33,13 +33,13 @@ awk -F, '
     folders[folder]
   }
   function row(name) {
-    printf "%-24s %8d %7.1f %% %8d %7.1f %%\n", name, sum[name, 2], 100 * sum[name, 3] / (sum[name, 2] + !sum[name, 2]),
-           sum[name, 5], 100 * sum[name, 6] / (sum[name, 5] + !sum[name, 5])
+    return sprintf("%-24s %8d %7.1f %% %8d %7.1f %%", name, sum[name, 2], 100 * sum[name, 3] / (sum[name, 2] + !sum[name, 2]),
+           sum[name, 5], 100 * sum[name, 6] / (sum[name, 5] + !sum[name, 5]))
   }
   END {
     printf "%-24s %8s %9s %8s %9s\n", "folder", "lines", "run", "branches", "taken"
-    for (folder in folders) row(folder) | "sort"
+    for (folder in folders) print row(folder) | "sort"
     close("sort")
-    row("all")
+    print row("all")
   }' build/coverage/files.csv
 echo "files: build/coverage/index.html"

@@ -35,10 +35,10 @@ struct Case {
   /// The same data for the same arguments. Seeds differ in triangles as well as in rays.
   std::function<CaseData(std::uint64_t seed, std::size_t ray_count)> make;
   std::size_t rays_per_scene = 25'000;
-  double closest_share = 0.25;  ///< of the rays that all kernels are asked; less where many hits tie
   Claim claim = Claim::none;
   bool is_proved = false;  ///< the claim needs no oracle but for a sample
   HostMode mode = HostMode::usual;
+  bool is_slow = false;     ///< rays meet hundreds of triangles that only integers can decide
   bool is_huge = false;     ///< leave out kernels whose side tables take long to make
   bool is_variant = false;  ///< of the case before it; for tests with little time
 };

@@ -33,13 +33,15 @@ Triangles thin_soup(std::size_t count, Random& random) {
 CaseData huge_degenerate_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count) {
   Random random(seed);
   CaseData data{thin_soup(count, random), {}};
+  const auto on_grid = [](Float3 p) {
+    for (float& x : p) x = std::round(x * 0x1p20f) * 0x1p-20f;
+    return p;
+  };
   for (std::size_t i = 0; i < data.triangles.size(); i += 2) {
-    const Float3 a = vertex(data.triangles[i], 0), b = vertex(data.triangles[i], 1);
+    const Float3 a = on_grid(vertex(data.triangles[i], 0)), b = on_grid(vertex(data.triangles[i], 1));
+    const Float3 beyond = add(b, subtract(b, a));  // exact on the grid: in one line with a and b
     const std::size_t kind = random.below(3);
-    // A point, a line with a corner twice, and one whose middle is exact.
-    data.triangles[i] = kind == 0   ? triangle(a, a, a)
-                        : kind == 1 ? triangle(a, b, a)
-                                    : triangle({0, 0, 0}, b, scale(b, 2));
+    data.triangles[i] = kind == 0 ? triangle(a, a, a) : kind == 1 ? triangle(a, b, a) : triangle(a, b, beyond);
   }
   aim_at_triangles(data, ray_count, 1, random);
   return data;

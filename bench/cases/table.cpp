@@ -21,8 +21,8 @@ Case plain(int row, const char* name, double rays, Make* make, const char* summa
   return c;
 }
 
-Case tied(Case c) {
-  c.closest_share = 0.01;
+Case slow(Case c) {
+  c.is_slow = true;
   return c;
 }
 
@@ -140,8 +140,7 @@ void add_huge(double size, std::vector<Case>& table) {
     Case c = plain(scene.row, scene.name, scene.rays, nullptr, scene.summary);
     c.make = [make = scene.make, count](std::uint64_t seed, std::size_t rays) { return make(count, seed, rays); };
     c.rays_per_scene = kOneScene;
-    c.closest_share = 0.01;
-    c.is_huge = count > 200'000;
+    c.is_slow = c.is_huge = count > 200'000;
     table.push_back(std::move(c));
   }
 }
@@ -189,7 +188,7 @@ std::vector<Case> all_cases(double size) {
               Claim::none_occluded));
   add(claimed(plain(9, "offset_inward", 5e5, offset_inward, "moved into a ball: none gets out"), Claim::all_occluded));
   add(plain(10, "degenerate_soup", 5e5, degenerate_soup, "half of the triangles are points or lines"));
-  add(tied(plain(11, "duplicates", 1e6, duplicates, "each triangle 2 to 1000 times: as once")));
+  add(slow(plain(11, "duplicates", 1e6, duplicates, "each triangle 2 to 1000 times: as once")));
   add(plain(12, "slivers", 1e6, slivers, "aspect ratios from 1e2 to 1e7"));
   add(plain(13, "power_of_two_twin", 7e6, power_of_two_twin, "powers of two nearest 1e-18 ... 1e18: as at scale 1"));
   add(plain(13, "scaled_power_of_two", 1e6, scaled_power_of_two, "the same for full 24-bit coordinates"));
@@ -200,9 +199,9 @@ std::vector<Case> all_cases(double size) {
   add(plain(17, "invalid_vertices", 1e6, invalid_vertices, "NaN, infinite and denormal vertices among good ones"));
   add(plain(18, "invalid_rays", 4e6, invalid_rays, "NaN, infinite, zero and denormal rays among good ones"));
   add(plain(20, "tiny_scenes", 1e5, tiny_scenes, "no triangle, one, only degenerate ones, two in a plane"));
-  add(tied(plain(21, "coincident", 1e5, coincident, "one triangle, and up to 1000 copies of it")));
-  add(tied(plain(21, "fan", 1e5, fan, "hundreds of triangles through one vertex")));
-  add(tied(plain(21, "shared_edge", 1e5, shared_edge, "hundreds of triangles through one long edge")));
+  add(slow(plain(21, "coincident", 1e5, coincident, "one triangle, and up to 1000 copies of it")));
+  add(slow(plain(21, "fan", 1e5, fan, "hundreds of triangles through one vertex")));
+  add(slow(plain(21, "shared_edge", 1e5, shared_edge, "hundreds of triangles through one long edge")));
   add(plain(22, "nested_sizes", 1e6, nested_sizes, "sizes 1, 1/2, 1/4 ... 2^-60"));
   add(plain(22, "cantor_dust", 1e6, cantor_dust, "clusters of clusters, down to 3^-16"));
   add(plain(23, "flat_scene", 1e6, flat_scene, "all triangles in one plane across an axis"));

@@ -39,7 +39,7 @@ void check_sample(const std::vector<Ray>& rays, const Holds& holds, Truth& truth
 Truth find_truth(const cases::CaseData& data, const TruthOptions& options) {
   Truth truth;
   truth.occluded.assign(data.rays.size(), options.claim == cases::Claim::all_occluded ? 1 : 0);
-  truth.closest.assign(options.closest_rays, Primitive::kNone);
+  truth.closest.assign(std::min(options.closest_rays, data.rays.size()), Primitive::kNone);
   const oracle::Oracle own(data.triangles);
   tbb::parallel_for(std::size_t{0}, truth.closest.size(), [&](std::size_t i) {
     if (const auto hit = own.closest(data.rays[i])) truth.closest[i] = hit->triangle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A case runs in rounds. In a round some chunks of rays, each with a scene of its own, are judged side by side on one
-// instruction set; then a small chunk is asked everything on all of them. A case with one scene is one chunk.
+// A case runs in rounds. In a round a small chunk of rays is asked everything on all instruction sets; then some larger
+// ones, each with a scene of its own, are judged side by side on one of them. A case with one scene is one chunk.
 #include "stress/case_run.h"
 
 #include <fmt/core.h>
@@ -24,6 +24,8 @@ namespace {
 constexpr std::size_t kChunksPerRound = 6;
 constexpr std::size_t kKernelsPerRay = 2;
 constexpr std::size_t kFullChunk = 1500;     // rays that all kernels are asked
+constexpr std::size_t kSlowFullChunk = 150;  // the same where answers take long
+constexpr std::size_t kClosestPart = 4;      // of these, one in so many is asked for its closest hit as well
 constexpr std::uint64_t kMostDescribed = 5;  // wrong answers shown for each case
 // Kernels for scenes of more than a few hundred thousand triangles.
 const char* const kHugeKernels[] = {"auto", "standard", "linked", "wide", "beam", "indexed", "srdh", "kd-restart"};
@@ -101,9 +103,7 @@ judge::TruthOptions truth_options(const cases::Case& c, std::size_t closest_rays
   return options;
 }
 
-std::size_t share_of(std::size_t rays, double share) {
-  return static_cast<std::size_t>(std::ceil(static_cast<double>(rays) * share));
-}
+std::size_t full_rays(const cases::Case& c) { return c.is_slow ? kSlowFullChunk : kFullChunk; }
 
 // All kernels on all instruction sets, about a quarter of the rays for their closest hits too.
 Chunk full_chunk(const cases::Case& c, std::uint64_t seed, std::size_t rays) {
@@ -111,14 +111,14 @@ Chunk full_chunk(const cases::Case& c, std::uint64_t seed, std::size_t rays) {
   chunk.seed = seed;
   chunk.rays = rays;
   chunk.options.targets = judge::Targets::all;
-  chunk.options.rays_on_each_target = std::min(rays, kFullChunk);
+  chunk.options.rays_on_each_target = std::min(rays, full_rays(c));
   chunk.options.kernels_per_ray = kKernelsPerRay;
   chunk.options.mode = c.mode;
   if (c.is_huge) {
     chunk.options.kernels.assign(std::begin(kHugeKernels), std::end(kHugeKernels));
     chunk.options.training_rays = kHugeTraining;
   }
-  chunk.options.truth = truth_options(c, share_of(std::min(rays, kFullChunk), c.closest_share), false);
+  chunk.options.truth = truth_options(c, chunk.options.rays_on_each_target / kClosestPart + 1, false);
   return chunk;
 }
 
@@ -165,7 +165,7 @@ Status run_case(const cases::Case& c, const StressSettings& settings, Counts& ou
   std::uint64_t seed = settings.seed * 1'000'003;
   std::size_t asked = 0, turn = 0;
   for (std::size_t round = 0; asked < rays; ++round) {
-    Chunk full = full_chunk(c, seed++, c.rays_per_scene >= rays ? rays - asked : std::min(rays - asked, kFullChunk));
+    Chunk full = full_chunk(c, seed++, c.rays_per_scene >= rays ? rays - asked : std::min(rays - asked, full_rays(c)));
     full.status = judge_chunk(c, full);
     asked += full.rays;
     if (Status status = finish(c, settings, full, out); !status) return status;

@@ -6,6 +6,8 @@
 #include <exception>
 #include <mutex>
 
+#include "core/threads_executor.h"
+
 namespace umbrix::detail {
 namespace {
 
@@ -29,6 +31,9 @@ struct GuardedBody {
 }  // namespace
 
 void parallel_for(const Executor* executor, std::size_t count, const std::function<void(std::size_t)>& body) {
+#ifdef UMBRIX_THREAD_SANITIZER
+  if (!executor || !executor->parallel_for) executor = &threads_executor();
+#endif
   if (!executor || !executor->parallel_for) {
     tbb::parallel_for(std::size_t{0}, count, body);
     return;

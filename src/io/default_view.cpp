@@ -147,7 +147,9 @@ std::vector<Light> emissive_lights(const SceneFile& scene) {
     const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
     if (mesh.triangles.empty() || scene.materials[mesh.material].emission == Float3{0, 0, 0}) continue;
     Light light;
-    light.name = scene.instances[i].name;
+    for (const std::string* name : {&scene.instances[i].name, &mesh.name, &scene.materials[mesh.material].name}) {
+      if (light.name.empty()) light.name = *name;
+    }
     light.type = LightType::mesh;
     light.color = scene.materials[mesh.material].emission;
     light.instance = static_cast<std::uint32_t>(i);

@@ -12,24 +12,30 @@ constexpr std::uint32_t kChoiceOfLight = 0xFFFFFFFFu, kPointOfChosen = 0xFFFFFFF
 }  // namespace
 
 void LightRays::trace(std::uint32_t index, TileSamples& tile, std::vector<LightStats>& stats) {
-  for (const std::uint32_t light : lights_.punctual()) ask_each(light, index, 1, tile, stats[light]);
-  for (const std::uint32_t light : lights_.sampled()) {
-    ask_each(light, index, options_.light_samples, tile, stats[light]);
+  if (!lights_.punctual().empty()) {
+    request(tile, 1, [](const Pixel&) { return SamplePoint(); });
+    for (const std::uint32_t light : lights_.punctual()) {
+      direct_light_.add(lights_[light], light, requests_, tile, stats[light]);
+    }
   }
+  for (const std::uint32_t light : lights_.sampled()) ask_each(light, index, tile, stats[light]);
   if (lights_.chooses()) ask_chosen(index, tile, stats);
 }
 
-void LightRays::ask_each(std::uint32_t light, std::uint32_t index, std::uint32_t times, TileSamples& tile,
-                         LightStats& stats) {
-  const std::uint32_t count = options_.samples * times;
-  for (std::uint32_t time = 0; time < times; ++time) {
-    requests_.clear();
-    for (std::uint32_t i = 0; i < tile.samples.size(); ++i) {
-      if (!tile.samples[i].hit) continue;
-      const Pixel pixel = tile.pixels[i];
-      const SamplePoint u = purpose_sample(pixel.x, pixel.y, light, index * times + time, count, options_.seed);
-      requests_.push_back({i, u, 1.0 / times});
-    }
+template <typename PointOf>
+void LightRays::request(const TileSamples& tile, double share, const PointOf& point_of) {
+  requests_.clear();
+  for (std::uint32_t i = 0; i < tile.samples.size(); ++i) {
+    if (tile.samples[i].hit) requests_.push_back({i, point_of(tile.pixels[i]), share});
+  }
+}
+
+void LightRays::ask_each(std::uint32_t light, std::uint32_t index, TileSamples& tile, LightStats& stats) {
+  const std::uint32_t times = options_.light_samples;
+  for (std::uint32_t number = index * times; number < (index + 1) * times; ++number) {
+    request(tile, 1.0 / times, [&](const Pixel& pixel) {
+      return purpose_sample(pixel.x, pixel.y, light, number, options_.samples * times, options_.seed);
+    });
     direct_light_.add(lights_[light], light, requests_, tile, stats);
   }
 }

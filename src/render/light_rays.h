@@ -19,7 +19,11 @@ class LightRays {
   void trace(std::uint32_t index, TileSamples& tile, std::vector<LightStats>& stats);
 
  private:
-  void ask_each(std::uint32_t light, std::uint32_t index, std::uint32_t times, TileSamples& tile, LightStats& stats);
+  /// Fills requests_: one for each sample that met a surface.
+  template <typename PointOf>
+  void request(const TileSamples& tile, double share, const PointOf& point_of);
+
+  void ask_each(std::uint32_t light, std::uint32_t index, TileSamples& tile, LightStats& stats);
   void ask_chosen(std::uint32_t index, TileSamples& tile, std::vector<LightStats>& stats);
   void choose_lights(std::uint32_t sample, const Pixel& pixel, std::uint32_t first, std::uint32_t times);
 

@@ -24,9 +24,7 @@ Vec3 before_light(const Vec3& origin, const Vec3& way, const Arrival& arrival) {
 
 }  // namespace
 
-Receiver receiver_at(const Surface& surface) {
-  return {surface.point, surface.origin, surface.shading_normal};
-}
+Receiver receiver_at(const Surface& surface) { return {surface.point, surface.origin, surface.shading_normal}; }
 
 Ray shadow_ray(const Receiver& receiver, const Arrival& arrival) {
   Vec3 way = arrival.to_light;

@@ -12,6 +12,7 @@ namespace {
 std::atomic<std::uint64_t> seen{0};
 std::atomic<std::uint64_t> failing{0};  ///< 0: none
 std::atomic<bool> fails_on{false};
+std::atomic<std::int64_t> living{0};
 
 bool fails() noexcept {
   const std::uint64_t n = failing;
@@ -24,7 +25,13 @@ void* allocate(std::size_t size, std::size_t alignment) {
   if (fails()) throw std::bad_alloc();
   void* memory = nullptr;
   if (posix_memalign(&memory, alignment, size > 0 ? size : 1) != 0) throw std::bad_alloc();
+  ++living;
   return memory;
+}
+
+void release(void* memory) noexcept {
+  living -= memory ? 1 : 0;
+  std::free(memory);
 }
 
 }  // namespace
@@ -39,6 +46,7 @@ FailingAllocator::FailingAllocator(std::uint64_t n, bool all_after) noexcept {
 FailingAllocator::~FailingAllocator() { failing = 0; }
 
 std::uint64_t FailingAllocator::requests() noexcept { return seen; }
+std::int64_t FailingAllocator::live() noexcept { return living; }
 
 }  // namespace umbrix
 
@@ -50,14 +58,14 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
 void* operator new[](std::size_t size, std::align_val_t alignment) {
   return allocate(size, static_cast<std::size_t>(alignment));
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
 
 extern "C" {
 void* __real_calloc(std::size_t count, std::size_t size);

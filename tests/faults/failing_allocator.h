@@ -16,6 +16,8 @@ class FailingAllocator {
 
   /// Requests so far.
   static std::uint64_t requests() noexcept;
+  /// Objects that `new` made and nobody deleted.
+  static std::int64_t live() noexcept;
 };
 
 }  // namespace umbrix

@@ -118,7 +118,7 @@ TEST_F(Memory, AddressSpaceOfAnySize) {
   }
   FaultRow row(all ? "ulimit -v from 64 MB to 4 GB, 1 million triangles" : "ulimit -v from 64 MB to 4 GB");
   int not_started = 0, refused = 0;
-  for (int i = 0, count = fault_runs(5, 64); i < count; ++i) {
+  for (int i = 0, count = fault_runs(5, 40); i < count; ++i) {
     for (const char* name : {"out.exr", "out.png"}) write(name, "precious");
     const double megabytes = 64 * std::pow(64.0, i / std::max(1.0, count - 1.0));
     std::vector<std::string> words = {

@@ -46,13 +46,13 @@ TEST_F(ProgramAllocation, OfARender) {
   FaultRow row("a request for memory fails in `umbrix render`");
   std::vector<std::string> arguments = render_arguments();
   arguments.back() = "1";
-  fail_evenly(arguments, fault_runs(10, 2000), row);
+  fail_evenly(arguments, fault_runs(10, 400), row);
 }
 
 TEST_F(ProgramAllocation, OfInfo) {
   make_expected();
   FaultRow row("a request for memory fails in `umbrix info`");
-  fail_evenly({"info", path("scene.gltf"), "--json"}, fault_runs(6, 2000), row);
+  fail_evenly({"info", path("scene.gltf"), "--json"}, fault_runs(6, 400), row);
 }
 
 }  // namespace

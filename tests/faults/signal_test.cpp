@@ -44,7 +44,7 @@ TEST_F(Signal, WhileALargeTreeIsBuilt) {
   FaultRow row("SIGINT and SIGTERM while a tree over 2.4 million triangles is built");
   std::vector<std::string> arguments = render_arguments();
   arguments[1] = scene;
-  interrupt(arguments, 4, fault_runs(1, 50), row);
+  interrupt(arguments, 4, fault_runs(1, 25), row);
 }
 
 TEST_F(Signal, WhileManySamplesAreTaken) {
@@ -61,7 +61,7 @@ TEST_F(Signal, WhileALargeImageIsWritten) {
   // Three quarters of its time.
   std::vector<std::string> arguments = render_arguments();
   *std::find(arguments.begin(), arguments.end(), "400x200") = "8000x8000";
-  interrupt(arguments, 12, fault_runs(0, 20), row);
+  interrupt(arguments, 12, fault_runs(0, 12), row);
 }
 
 TEST_F(Signal, WhatIsIgnoredStaysIgnored) {

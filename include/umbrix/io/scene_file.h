@@ -179,7 +179,8 @@ UMBRIX_API Camera framing_camera(const SceneFile& scene);
 UMBRIX_API Light default_light(const Camera& camera);
 
 /// A light of type mesh for each instance whose material emits: its triangles shine on the side of their normals, on
-/// both if the material is double-sided, with the radiance `emission`.
+/// both if the material is double-sided, with the radiance `emission`. It has the first name there is of instance, mesh
+/// and material.
 UMBRIX_API std::vector<Light> emissive_lights(const SceneFile& scene);
 
 }  // namespace umbrix::io

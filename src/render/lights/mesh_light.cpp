@@ -19,10 +19,11 @@ constexpr double kLeastSolidAngle = 1e-4, kMostSolidAngle = 6.22;
 class MeshLight final : public Light {
  public:
   MeshLight(const io::Light& light, const World& world) : radiance_(radiance_of(light)) {
-    // A mesh that alpha hides is not in the world, and shines on nothing.
-    const auto found = std::find_if(world.meshes.begin(), world.meshes.end(),
-                                    [&](const WorldMesh& mesh) { return mesh.instance == light.instance; });
-    if (found == world.meshes.end()) return;
+    // Meshes are in the order of instances. One that alpha hides is not in the world, and shines on nothing.
+    const auto found =
+        std::lower_bound(world.meshes.begin(), world.meshes.end(), light.instance,
+                         [](const WorldMesh& mesh, std::uint32_t instance) { return mesh.instance < instance; });
+    if (found == world.meshes.end() || found->instance != light.instance) return;
     mesh_ = &*found;
     double_sided_ = world.file->materials[mesh_->mesh->material].double_sided;
     std::vector<double> areas;
