@@ -141,7 +141,7 @@ struct LoadLimits {
   std::uint64_t file_bytes = 4ull << 30;    ///< of the scene file, and of all its buffer files together
   std::uint64_t json_bytes = 256ull << 20;  ///< a .glb's JSON, or a whole .gltf with what is embedded in it
   std::uint64_t json_values = 1ull << 24;   ///< numbers, texts, arrays and objects in the JSON
-  std::uint64_t list_elements = 1'000'000;  ///< of accessors, buffer views, meshes, materials, ...: each
+  std::uint64_t list_elements = 1'000'000;  ///< of accessors, buffer views, meshes: each; of other lists a tenth
   std::uint64_t nodes = 1'000'000;
   std::uint32_t node_depth = 256;
   std::uint64_t triangles = 1ull << 29;  ///< over all instances
