@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "io/load_error.h"
@@ -91,6 +92,7 @@ Status AtomicFile::begin(const std::string& path, bool overwrite) {
   overwrite_ = overwrite;
   std::error_code error;
   target_ = fs::exists(path, error) ? fs::canonical(path, error).string() : path;
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (error) return failed(path, error.message());
   sweep_temporaries(target_);
   if (const int number = temporary_.create(target_)) return failed(path, reason_of(number));

@@ -17,7 +17,7 @@ class AtomicFile {
   /// there, or a file and not `overwrite`.
   static Status check(const std::string& path, bool overwrite);
 
-  /// Makes the temporary, after `check`, and removes what dead processes left.
+  /// Makes the temporary, after `check`, and removes what dead processes left. Throws std::bad_alloc.
   Status begin(const std::string& path, bool overwrite);
 
   /// Writes all bytes at the offset, between begin and commit. Returns errno, or 0.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "io/load_error.h"
@@ -56,8 +57,8 @@ std::vector<unsigned char> read_bytes(const File& file, std::uint64_t count) {
 bool lies_within(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(path, error);
-  if (error) return false;
-  const fs::path root = fs::canonical(folder, error);
+  const fs::path root = error ? fs::path() : fs::canonical(folder, error);
+  if (error == std::errc::not_enough_memory) throw std::bad_alloc();
   if (error) return false;
   const fs::path relative = real.lexically_relative(root);
   return !relative.empty() && *relative.begin() != "..";
