@@ -92,13 +92,14 @@ Ray take_ray(ByteStream& bytes, const Numbers& numbers, const std::vector<oracle
 // A complaint is told so that it can be kept as a test.
 void check_kernels(const cases::CaseData& data, bool all_targets, judge::Result& result) {
   judge::Options options;
-  options.all_targets = all_targets;
-  options.closest_rays = data.rays.size();
+  options.targets = all_targets ? judge::Targets::all : judge::Targets::current;
+  options.rays_on_each_target = data.rays.size();
+  options.truth.closest_rays = data.rays.size();
   const Status status = judge::judge(data, options, result);
   promise(status.ok(), "a small scene can be built and asked");
   if (result.complaints.empty()) return;
   const judge::Complaint& first = result.complaints.front();
-  std::fprintf(stderr, "%s\n", judge::describe(data, first).c_str());
+  std::fprintf(stderr, "%s\n", judge::minimise(data, first).text.c_str());
   promise(false, "kernels give the answers of exact arithmetic");
 }
 
@@ -154,6 +155,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes_data, std::size_
   if (data.rays.empty()) return 0;
   judge::Result result;
   check_kernels(data, all_targets, result);
-  check_frames(data, result.occluded, frame_options);
+  check_frames(data, result.truth.occluded, frame_options);
   return 0;
 }
