@@ -6,26 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "report.h"
-
 namespace umbrix::bench {
 namespace {
-
-RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile) {
-  const std::size_t begin = frame.tile_starts[tile];
-  return {frame.rays.data() + begin, frame.tile_starts[tile + 1] - begin};
-}
-
-std::size_t tile_count(const workload::TiledRays& frame) { return frame.tile_starts.size() - 1; }
-
-/// Calls trace(tile, answers) for all tiles and returns the thread's seconds.
-template <typename Trace>
-double trace_tiles(const workload::TiledRays& frame, std::vector<std::uint8_t>& answers, const Trace& trace) {
-  answers.assign(frame.rays.size(), 0);
-  const double start = thread_seconds();
-  for (std::size_t tile = 0; tile < tile_count(frame); ++tile) trace(tile, answers.data() + frame.tile_starts[tile]);
-  return thread_seconds() - start;
-}
 
 /// A kernel of the table. It is prepared from the frame before the last, and traces that one first: what it makes as it
 /// goes is there then.
@@ -125,6 +107,11 @@ bool is_wanted(const std::string& name, const std::vector<std::string>& wanted) 
 }
 
 }  // namespace
+
+RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile) {
+  const std::size_t begin = frame.tile_starts[tile];
+  return {frame.rays.data() + begin, frame.tile_starts[tile + 1] - begin};
+}
 
 const Executor& one_thread() {
   static const Executor executor = {[](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "report.h"
 #include "umbrix/umbrix.h"
 #include "workload/shadow_rays.h"
 
@@ -24,6 +25,19 @@ struct FrameResult {
   std::string notes;               ///< what else there is to say, for the table's foot
   FrameStats frame;                ///< of frame tracers
 };
+
+/// The rays of a tile.
+RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile);
+
+/// Calls trace(tile, answers) for all tiles and returns the thread's seconds.
+template <typename Trace>
+double trace_tiles(const workload::TiledRays& frame, std::vector<std::uint8_t>& answers, const Trace& trace) {
+  answers.assign(frame.rays.size(), 0);
+  const std::size_t tiles = frame.tile_starts.size() - 1;
+  const double start = thread_seconds();
+  for (std::size_t tile = 0; tile < tiles; ++tile) trace(tile, answers.data() + frame.tile_starts[tile]);
+  return thread_seconds() - start;
+}
 
 /// A way to answer a frame's shadow rays.
 class Contestant {
