@@ -110,24 +110,6 @@ Status ask(Arena& arena, const Frames& frames, const Training& lights, int round
   return {};
 }
 
-void add(const RayErrors& part, RayErrors& sum) {
-  sum.rays += part.rays;
-  sum.occluded += part.occluded;
-  sum.flux += part.flux;
-  if (sum.peers.empty()) {
-    sum.peers = part.peers;
-    return;
-  }
-  for (std::size_t i = 0; i < part.peers.size(); ++i) {
-    const PeerErrors& peer = part.peers[i];
-    sum.peers[i].leaks += peer.leaks;
-    sum.peers[i].false_shadows += peer.false_shadows;
-    sum.peers[i].wrong_flux += peer.wrong_flux;
-    for (std::size_t round = 0; round < peer.seconds.size(); ++round)
-      sum.peers[i].seconds[round] += peer.seconds[round];
-  }
-}
-
 Status ordinary(Arena& arena, const workload::Geometry& geometry, const io::Camera& camera, const io::Light& light,
                 const RayErrorOptions& options, RayErrors& out) {
   const Frames frames = moving_camera_frames(arena.scene, geometry, camera, light, options.size, CameraMotion());
@@ -156,6 +138,24 @@ Status adversarial(Arena& arena, const workload::Geometry& geometry, workload::A
 
 }  // namespace
 
+RayErrors& RayErrors::operator+=(const RayErrors& other) {
+  rays += other.rays;
+  occluded += other.occluded;
+  flux += other.flux;
+  if (peers.empty()) {
+    peers = other.peers;
+    return *this;
+  }
+  for (std::size_t i = 0; i < other.peers.size(); ++i) {
+    const PeerErrors& peer = other.peers[i];
+    peers[i].leaks += peer.leaks;
+    peers[i].false_shadows += peer.false_shadows;
+    peers[i].wrong_flux += peer.wrong_flux;
+    for (std::size_t round = 0; round < peer.seconds.size(); ++round) peers[i].seconds[round] += peer.seconds[round];
+  }
+  return *this;
+}
+
 Status measure_rays(const workload::Geometry& geometry, const workload::Viewpoint& viewpoint,
                     const std::vector<std::size_t>& lights, const RayErrorOptions& options,
                     std::vector<RayErrors>& out) {
@@ -166,18 +166,15 @@ Status measure_rays(const workload::Geometry& geometry, const workload::Viewpoin
     RayErrors part;
     if (Status status = ordinary(arena, geometry, viewpoint.camera, viewpoint.lights[light], options, part); !status)
       return status;
-    add(part, all_lights);
+    all_lights += part;
   }
   out.push_back(std::move(all_lights));
-  if (options.adversarial == 0) return {};
-  RayErrors all_aims{"adversarial", "all"};
   for (const workload::Aim aim : workload::kAims) {
+    if (options.adversarial == 0) break;
     RayErrors part{"adversarial", workload::aim_name(aim)};
     if (Status status = adversarial(arena, geometry, aim, options, part); !status) return status;
-    add(part, all_aims);
     out.push_back(std::move(part));
   }
-  out.push_back(std::move(all_aims));
   return {};
 }
 

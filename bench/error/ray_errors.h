@@ -32,15 +32,18 @@ struct PeerErrors {
 /// Rays of one kind, all judged by exact arithmetic.
 struct RayErrors {
   std::string kind;  ///< "ordinary" or "adversarial"
-  std::string aim;   ///< what adversarial rays are aimed at, "all" for their sum, or empty
+  std::string aim;   ///< what adversarial rays are aimed at; empty for ordinary ones
   std::uint64_t rays = 0;
   std::uint64_t occluded = 0;          ///< in truth
   double flux = 0;                     ///< the irradiance of rays that are not; 0 for adversarial ones
   std::vector<PeerErrors> peers = {};  ///< the same ones in the same order in each set of a scene
+
+  /// Takes rays of the same peers in.
+  RayErrors& operator+=(const RayErrors& other);
 };
 
 /// Asks every kernel, the frame tracers and Embree in all modes: shadow rays of the chosen lights (one set, summed over
-/// them), then adversarial rays by aim and summed.
+/// them), then adversarial rays, a set for each aim.
 Status measure_rays(const workload::Geometry& geometry, const workload::Viewpoint& viewpoint,
                     const std::vector<std::size_t>& lights, const RayErrorOptions& options,
                     std::vector<RayErrors>& out);
