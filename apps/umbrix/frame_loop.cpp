@@ -19,6 +19,7 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
   image.metadata = {{"Software", fmt::format("umbrix {}", version_string())},
                     {"umbrix:seed", std::to_string(a.seed)},
                     {"umbrix:spp", std::to_string(a.samples)}};
+  if (a.light_samples > 1) image.metadata.emplace_back("umbrix:light_samples", std::to_string(a.light_samples));
   if (frame.number) image.metadata.emplace_back("umbrix:frame", std::to_string(*frame.number));
   if (a.crop) {
     const render::Crop& c = *a.crop;
@@ -84,6 +85,7 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.height = job.size.height;
   options.crop = a.crop;
   options.samples = a.samples;
+  options.light_samples = a.light_samples;
   options.seed = a.seed;
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;

@@ -40,8 +40,8 @@ Json lights(const io::SceneFile& scene) {
                   {"type", io::light_type_info(light.type).name},
                   {"color", light.color},
                   {"intensity", light.intensity}};
-    if (io::light_type_info(light.type).has_position) entry["position"] = light.position;
-    if (io::light_type_info(light.type).has_direction) entry["direction"] = light.direction;
+    if (io::light_type_info(light.type).has(io::kHasPosition)) entry["position"] = light.position;
+    if (io::light_type_info(light.type).has(io::kHasDirection)) entry["direction"] = light.direction;
     list.push_back(entry);
   }
   return list;

@@ -101,8 +101,14 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
           "--crop", [&a](const std::string& text) { a.crop = parse_crop(text); }, "Render only this part of the image")
       ->type_name("WxH+X+Y");
   add_integer(
-      command, "--spp", 1, 65536, [&a](auto n) { a.samples = static_cast<std::uint32_t>(n); },
+      command, "--spp", 1, render::kMostSamples, [&a](auto n) { a.samples = static_cast<std::uint32_t>(n); },
       "Samples a pixel, stratified [1]");
+  add_integer(
+      command, "--light-samples", 1, render::kMostLightSamples,
+      [&a](auto n) { a.light_samples = static_cast<std::uint32_t>(n); },
+      "Shadow rays of a sample to each light with an area; with more than 8 such lights, to 8 of them by power [1]");
+  command.add_flag_callback(
+      "--no-mesh-lights", [&a] { a.mesh_lights = false; }, "Emissive surfaces are seen, but light nothing");
   add_integer(
       command, "--seed", 0, UINT64_MAX, [&a](auto n) { a.seed = n; }, "Another seed, other sample places [0]");
   add_real(

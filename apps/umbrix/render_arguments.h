@@ -36,6 +36,8 @@ struct RenderArguments {
   std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;
   std::uint32_t samples = 1;
+  std::uint32_t light_samples = 1;
+  bool mesh_lights = true;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
   std::vector<HeatMapFile> heat_maps;  ///< for frames, with a place for their number

@@ -58,7 +58,7 @@ Status load(RenderJob& job) {
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
   if (Status status = io::load_scene(a.scene, job.scene); !status) return status;
-  if (Status status = choose_view(job.scene, a.setup, a.camera, job.view, job.camera_file); !status) {
+  if (Status status = choose_view(job.scene, a.setup, a.camera, a.mesh_lights, job.view, job.camera_file); !status) {
     return status;
   }
   if (Status status = place_cameras(job); !status) return status;

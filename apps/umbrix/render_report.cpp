@@ -73,6 +73,7 @@ Json shadow_rays(const render::LightStats& light) {
            {{"surface_faces_away", light.skipped_behind},
             {"beyond_range", light.skipped_range},
             {"outside_cone", light.skipped_cone},
+            {"emitter_faces_away", light.skipped_emitter},
             {"no_power", light.skipped_no_power}}},
           {"routes", routes(light.routes)},
           {"thread_seconds", light.seconds},
@@ -149,8 +150,6 @@ std::vector<std::string> summary(const RenderJob& job) {
   if (job.frames.empty()) return {"umbrix: nothing to render, all images exist"};
   const BuildStats& b = job.world.scene.build_stats();
   const render::LightStats shadow = job.stats.shadow();
-  const std::uint64_t skipped =
-      shadow.skipped_behind + shadow.skipped_range + shadow.skipped_cone + shadow.skipped_no_power;
   const double share_occluded = 100 * ratio(static_cast<double>(shadow.occluded), static_cast<double>(shadow.rays()));
   std::vector<std::string> lines = {
       fmt::format("scene   {} triangles in {} meshes, {} lights", b.triangles, job.world.meshes.size(),
@@ -159,7 +158,8 @@ std::vector<std::string> summary(const RenderJob& job) {
       fmt::format("camera  {:.2f} M rays, {:.2f} M rays/s a thread", mega(job.stats.camera_rays),
                   ratio(mega(job.stats.camera_rays), job.stats.camera_seconds)),
       fmt::format("shadow  {:.2f} M rays, {:.0f} % occluded, {:.2f} M rays/s a thread, {:.2f} M skipped",
-                  mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds), mega(skipped)),
+                  mega(shadow.rays()), share_occluded, ratio(mega(shadow.rays()), shadow.seconds),
+                  mega(shadow.skipped())),
       fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
                   job.seconds.load, job.seconds.build, job.seconds.render, job.threads, job.seconds.write)};
   if (!job.arguments.frames.empty()) lines.push_back(frames_line(job));
@@ -174,6 +174,7 @@ std::string stats_text(const RenderJob& job) {
                 {"width", job.size.width},
                 {"height", job.size.height},
                 {"samples_per_pixel", a.samples},
+                {"light_samples", a.light_samples},
                 {"seed", a.seed},
                 {"triangles", job.world.scene.build_stats().triangles},
                 {"kernel", a.kernel_name},

@@ -29,7 +29,7 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
 }  // namespace
 
 Status choose_view(const io::SceneFile& scene, const std::string& setup_path, const std::string& camera,
-                   render::View& view, std::string& camera_file) {
+                   bool mesh_lights, render::View& view, std::string& camera_file) {
   io::Setup setup;
   camera_file = scene.path;
   if (!setup_path.empty()) {
@@ -44,6 +44,9 @@ Status choose_view(const io::SceneFile& scene, const std::string& setup_path, co
     view.camera = scene.cameras.empty() ? io::framing_camera(scene) : scene.cameras.front();
   }
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
+  if (mesh_lights) {
+    for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
+  }
   if (view.lights.empty()) view.lights.push_back(io::default_light(view.camera));
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera and lights for files that have none.
+// A camera and lights for files that have none, and the lights that are surfaces.
 
 #include <algorithm>
 #include <cmath>
@@ -139,6 +139,21 @@ Light default_light(const Camera& camera) {
     light.position[r] = row[3];
   }
   return light;
+}
+
+std::vector<Light> emissive_lights(const SceneFile& scene) {
+  std::vector<Light> lights;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+    if (mesh.triangles.empty() || scene.materials[mesh.material].emission == Float3{0, 0, 0}) continue;
+    Light light;
+    light.name = scene.instances[i].name;
+    light.type = LightType::mesh;
+    light.color = scene.materials[mesh.material].emission;
+    light.instance = static_cast<std::uint32_t>(i);
+    lights.push_back(std::move(light));
+  }
+  return lights;
 }
 
 }  // namespace umbrix::io

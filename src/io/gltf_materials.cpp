@@ -105,14 +105,16 @@ Camera convert_camera(const tinygltf::Camera& in, const std::string& label) {
 Light convert_light(const tinygltf::Light& in, const std::string& label) {
   Light out;
   out.name = in.name;
-  if (!find_light_type(in.type, out.type)) bad_input("{}: there is no type '{}'", label, printable(in.type, 32));
+  if (!find_light_type(in.type, out.type) || light_type_info(out.type).has(kHasArea)) {
+    bad_input("{}: there is no type '{}'", label, printable(in.type, 32));
+  }
   if (in.color.size() == 3) {
     for (std::size_t c = 0; c < 3; ++c) out.color[c] = checked(in.color[c], 0, kLargest, "color", label);
   }
   out.intensity = checked(in.intensity, 0, kLargest, "intensity", label);
   // tinygltf gives 0 for a light without a range.
   if (in.range != 0) out.range = checked(in.range, 0, kLargest, "range", label);
-  if (light_type_info(out.type).has_cone) {
+  if (light_type_info(out.type).has(kHasCone)) {
     out.outer_cone_angle = checked(in.spot.outerConeAngle, 0, kPi / 2 + 1e-6, "outerConeAngle", label);
     out.inner_cone_angle = checked(in.spot.innerConeAngle, 0, in.spot.outerConeAngle, "innerConeAngle", label);
     if (out.outer_cone_angle == 0) bad_input("{}: outerConeAngle is 0", label);

@@ -153,7 +153,7 @@ class NodeWalk {
     Light light = convert_light(in, label_of("lights", number, in.name));
     if (light.name.empty()) light.name = node.name;
     light.position = {to_world[3].x, to_world[3].y, to_world[3].z};
-    if (light_type_info(light.type).has_direction) {
+    if (light_type_info(light.type).has(kHasDirection)) {
       const glm::dvec3 d = direction(-glm::dvec3(to_world[2]), "light", label);
       light.direction = {d.x, d.y, d.z};
     }

@@ -7,7 +7,6 @@
 
 #include <cctype>
 #include <deque>
-#include <filesystem>
 #include <optional>
 
 #include "io/input_file.h"
@@ -16,7 +15,6 @@
 namespace umbrix::io::detail {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct ExternalBuffer {
@@ -57,30 +55,13 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon < uri.find('/');
 }
 
-// Is `path`, with links followed, below `folder`?
-bool lies_within(const fs::path& path, const fs::path& folder) {
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(path, error);
-  if (error) return false;
-  const fs::path root = fs::canonical(folder, error);
-  if (error) return false;
-  const fs::path relative = real.lexically_relative(root);
-  return !relative.empty() && *relative.begin() != "..";
-}
-
-fs::path buffer_path(const std::string& scene_path, const std::string& uri, const std::string& label,
-                     const LoadLimits& limits) {
+std::string buffer_path(const std::string& scene_path, const std::string& uri, const std::string& label,
+                        const LoadLimits& limits) {
   const std::string name = percent_decoded(uri);
-  const std::string shown = printable(name, 128);
-  if (name.find('\0') != std::string::npos) bad_input("{}: the file name has a zero byte", label);
-  if (has_scheme(uri)) bad_input("{}: '{}' is not a relative path; only local files are read", label, shown);
-  fs::path folder = fs::path(scene_path).parent_path();
-  if (folder.empty()) folder = ".";
-  fs::path path = folder / name;
-  if (!limits.allow_paths_outside && (fs::path(name).is_absolute() || !lies_within(path, folder))) {
-    bad_input("{}: '{}' leads outside the scene file's folder", label, shown);
+  if (has_scheme(uri)) {
+    bad_input("{}: '{}' is not a relative path; only local files are read", label, printable(name, 128));
   }
-  return path;
+  return path_beside(scene_path, name, !limits.allow_paths_outside, label, "scene file");
 }
 
 // Lists the buffers kept in files, and refuses what tinygltf would misunderstand.
@@ -103,7 +84,7 @@ BufferSource list_external_buffers(const std::string& scene_path, const GltfDocu
         bad_input("{}: the data URI '{}...' is of an unknown type", label, printable(uri.substr(0, 40), 40));
       }
     } else {
-      source.waiting.push_back({buffer_path(scene_path, uri, label, limits).string(), label, bytes});
+      source.waiting.push_back({buffer_path(scene_path, uri, label, limits), label, bytes});
     }
     ++number;
   }

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 
 #include "io/load_error.h"
 
 namespace umbrix::io::detail {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Owns a file descriptor.
 struct File {
@@ -35,7 +38,30 @@ void open_regular(const std::string& path, File& file) {
   file.bytes = static_cast<std::uint64_t>(info.st_size);
 }
 
+// Is `path`, with links followed, below `folder`?
+bool lies_within(const fs::path& path, const fs::path& folder) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(path, error);
+  if (error) return false;
+  const fs::path root = fs::canonical(folder, error);
+  if (error) return false;
+  const fs::path relative = real.lexically_relative(root);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
 }  // namespace
+
+std::string path_beside(const std::string& from, const std::string& name, bool stay_inside, const std::string& label,
+                        const char* kind) {
+  if (name.find('\0') != std::string::npos) bad_input("{}: the file name has a zero byte", label);
+  fs::path folder = fs::path(from).parent_path();
+  if (folder.empty()) folder = ".";
+  const fs::path path = folder / name;
+  if (stay_inside && (fs::path(name).is_absolute() || !lies_within(path, folder))) {
+    bad_input("{}: '{}' leads outside the {}'s folder", label, printable(name, 128), kind);
+  }
+  return path.string();
+}
 
 Status check_readable(const std::string& path) {
   try {

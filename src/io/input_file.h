@@ -16,4 +16,10 @@ Status check_readable(const std::string& path);
 /// grow. Throws LoadError without the file's name.
 std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limit);
 
+/// The path of a file that another one, `from`, names relative to its own folder. With `stay_inside` it must lie there,
+/// links followed, so that a file from elsewhere cannot have others read. `label` and `kind` ("scene file") are for the
+/// message. Throws LoadError.
+std::string path_beside(const std::string& from, const std::string& name, bool stay_inside, const std::string& label,
+                        const char* kind);
+
 }  // namespace umbrix::io::detail

@@ -11,8 +11,6 @@
 namespace umbrix::render {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A perfect mirror shows a punctual light in no direction or as an infinity; a floor makes it a tiny, finite spot.
 constexpr double kSmallestAlpha = 1e-3;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct light from punctual lights: no integral, one direction and one shadow ray for each light. The ray starts at
-// the point, moved off the surface by its own rounding error, and runs to the light at t = 1.
+// Direct light: each request is one direction to a light, and one shadow ray. For punctual lights that is all there is
+// to know; for those with an area it is one sample of the integral.
 #include "render/direct_light.h"
 
 #include <chrono>
 
 #include "render/bsdf.h"
-#include "render/lights/light.h"
+#include "render/shadow_ray.h"
 
 namespace umbrix::render {
 namespace {
@@ -15,6 +15,7 @@ namespace {
 void count_unreached(Unreached reason, LightStats& stats) {
   stats.skipped_range += reason == Unreached::beyond_range;
   stats.skipped_cone += reason == Unreached::outside_cone;
+  stats.skipped_emitter += reason == Unreached::emitter_faces_away;
   stats.skipped_no_power += reason == Unreached::no_power;
 }
 
@@ -23,32 +24,16 @@ void count_route(RayRoute route, CameraSample& sample, LightStats& stats) {
   ++stats.routes[index_of(route)];
 }
 
-/// From the surface to the light; to the light's own place, not along a rounded direction of unit length.
-Ray shadow_ray(const Surface& surface, const Arrival& arrival) {
-  float normal[3], toward[3];
-  store(surface.geometric_normal, normal);
-  store(glm::normalize(arrival.to_light), toward);
-  Ray ray;
-  offset_origin(surface.point, surface.point_error, normal, toward, ray.origin);
-  const Vec3 point(surface.point[0], surface.point[1], surface.point[2]);
-  const Vec3 origin(ray.origin[0], ray.origin[1], ray.origin[2]);
-  const bool has_place = arrival.tmax == 1;
-  store(has_place ? arrival.to_light + (point - origin) : arrival.to_light, ray.direction);
-  ray.tmin = 0;
-  ray.tmax = arrival.tmax;
-  return ray;
-}
-
 }  // namespace
 
-void DirectLight::add(const io::Light& light, std::uint32_t number, const std::vector<Surface>& surfaces,
-                      const std::vector<Pixel>& pixels, std::vector<CameraSample>& samples, LightStats& stats) {
-  gather(light, surfaces, pixels, samples, stats);
+void DirectLight::add(const Light& light, std::uint32_t number, const std::vector<LightRequest>& requests,
+                      TileSamples& tile, LightStats& stats) {
+  gather(light, requests, tile, stats);
   const auto start = std::chrono::steady_clock::now();
   trace(number, stats);
   stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < pending_.size(); ++i) {
-    CameraSample& sample = samples[pending_[i].sample];
+    CameraSample& sample = tile.samples[pending_[i].sample];
     ++sample.shadow_rays;
     count_route(routes_[i], sample, stats);
     ++(occluded_[i] ? stats.occluded : stats.unoccluded);
@@ -56,22 +41,21 @@ void DirectLight::add(const io::Light& light, std::uint32_t number, const std::v
     ++sample.unoccluded;
     sample.radiance += pending_[i].radiance;
   }
-  if (!work_.empty()) count_work(samples, stats);
+  if (!work_.empty()) count_work(tile.samples, stats);
 }
 
-void DirectLight::gather(const io::Light& light, const std::vector<Surface>& surfaces, const std::vector<Pixel>& pixels,
-                         std::vector<CameraSample>& samples, LightStats& stats) {
+void DirectLight::gather(const Light& light, const std::vector<LightRequest>& requests, const TileSamples& tile,
+                         LightStats& stats) {
   rays_.clear();
   skip_.clear();
   pixels_.clear();
   pending_.clear();
-  const LightKind& kind = light_kind(light.type);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!samples[i].hit) continue;
-    const Surface& surface = surfaces[i];
+  for (const LightRequest& request : requests) {
+    const Surface& surface = tile.surfaces[request.sample];
 
     // Spend no ray where the light cannot reach, or where none of its light would be seen.
-    const Arrival arrival = kind.arrive(light, Vec3(surface.point[0], surface.point[1], surface.point[2]));
+    const Receiver receiver = receiver_at(surface);
+    const Arrival arrival = light.sample(receiver, request.u);
     if (arrival.unreached != Unreached::no) {
       count_unreached(arrival.unreached, stats);
       continue;
@@ -83,15 +67,15 @@ void DirectLight::gather(const io::Light& light, const std::vector<Surface>& sur
       continue;
     }
     const Rgb bsdf = evaluate_bsdf(*surface.material, surface.shading_normal, surface.to_viewer, wi);
-    const Rgb radiance = bsdf * arrival.irradiance * cosine;
+    const Rgb radiance = bsdf * arrival.irradiance * cosine * request.share;
     if (radiance == Rgb(0)) {
       ++stats.skipped_no_power;
       continue;
     }
-    rays_.push_back(shadow_ray(surface, arrival));
+    rays_.push_back(shadow_ray(receiver, arrival));
     skip_.push_back(surface.primitive);
-    pixels_.push_back(pixels[i]);
-    pending_.push_back({i, radiance});
+    pixels_.push_back(tile.pixels[request.sample]);
+    pending_.push_back({request.sample, radiance});
   }
 }
 

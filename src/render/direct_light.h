@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/film.h"
+#include "render/lights/light.h"
 #include "render/render_stats.h"
 #include "render/surface.h"
 
@@ -18,19 +19,33 @@ struct ShadowQuery {
   bool count_work_per_ray = false;      ///< fill CameraSample's node and primitive tests as well
 };
 
-/// Adds the light of `light` to each sample that met a surface: one shadow ray where the light can reach, traced
-/// together. `surfaces[i]` belongs to `samples[i]`. Scratch space is kept from call to call.
+/// Asks what one light sends to one of a tile's samples.
+struct LightRequest {
+  std::uint32_t sample;  ///< number of the CameraSample
+  SamplePoint u;         ///< as for Light::sample
+  double share;          ///< of what arrives that counts: one over the rays that are expected there
+};
+
+/// A tile's camera samples and what they met: `surfaces[i]` and `pixels[i]` belong to `samples[i]`.
+struct TileSamples {
+  std::vector<Pixel> pixels;
+  std::vector<Surface> surfaces;
+  std::vector<CameraSample> samples;
+};
+
+/// Adds the light of one light to samples that met a surface: a shadow ray for each request where the light can reach,
+/// traced together. Scratch space is kept from call to call.
 class DirectLight {
  public:
   DirectLight(const World& world, const ShadowQuery& query) : world_(world), query_(query) {}
 
-  /// `number` is the light's, `pixels[i]` of samples[i].
-  void add(const io::Light& light, std::uint32_t number, const std::vector<Surface>& surfaces,
-           const std::vector<Pixel>& pixels, std::vector<CameraSample>& samples, LightStats& stats);
+  /// `number` is the light's. Requests are in the order of the samples, near ones near each other.
+  void add(const Light& light, std::uint32_t number, const std::vector<LightRequest>& requests, TileSamples& tile,
+           LightStats& stats);
 
  private:
-  void gather(const io::Light& light, const std::vector<Surface>& surfaces, const std::vector<Pixel>& pixels,
-              std::vector<CameraSample>& samples, LightStats& stats);
+  void gather(const Light& light, const std::vector<LightRequest>& requests, const TileSamples& tile,
+              LightStats& stats);
   void trace(std::uint32_t light, LightStats& stats);
   void count_work(std::vector<CameraSample>& samples, LightStats& stats) const;
 

@@ -14,7 +14,8 @@ struct Aov;
 
 /// What one camera ray found.
 struct CameraSample {
-  bool hit = false;                     ///< met a surface; if not, all below stays as it is
+  bool hit = false;                     ///< met a surface; if not, all below stays as it is but for the next two
+  bool opaque = false;                  ///< met a surface or an environment
   Rgb radiance{0};                      ///< towards the camera
   double depth = 0;                     ///< along the viewing axis
   Vec3 normal{0};                       ///< shading normal, world space

@@ -42,13 +42,11 @@ std::uint32_t permute(std::uint32_t i, std::uint32_t length, std::uint32_t patte
   return (i + pattern) % length;
 }
 
-}  // namespace
+std::uint32_t pixel_pattern(std::uint32_t x, std::uint32_t y, std::uint64_t seed) {
+  return static_cast<std::uint32_t>(mix(mix(std::uint64_t{y} << 32 | x) ^ seed));
+}
 
-PixelSample pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t count,
-                         std::uint64_t seed) {
-  if (count <= 1) return {0.5, 0.5};
-  const auto pattern = static_cast<std::uint32_t>(mix(mix(std::uint64_t{y} << 32 | x) ^ seed));
-
+SamplePoint multi_jittered(std::uint32_t index, std::uint32_t count, std::uint32_t pattern) {
   // Shuffle the order, so that the first samples of a pixel are not all in its upper rows.
   const std::uint32_t s = permute(index, count, pattern * 0x51633E2Du);
 
@@ -60,6 +58,19 @@ PixelSample pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, 
   const double jitter_x = unit_random(s, pattern * 0x967A889Bu);
   const double jitter_y = unit_random(s, pattern * 0x368CC8B7u);
   return {(column + (row + jitter_x) / rows) / columns, (s + jitter_y) / count};
+}
+
+}  // namespace
+
+SamplePoint pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t count,
+                         std::uint64_t seed) {
+  if (count <= 1) return {0.5, 0.5};
+  return multi_jittered(index, count, pixel_pattern(x, y, seed));
+}
+
+SamplePoint purpose_sample(std::uint32_t x, std::uint32_t y, std::uint32_t purpose, std::uint32_t index,
+                           std::uint32_t count, std::uint64_t seed) {
+  return multi_jittered(index, count, hash_word(purpose, pixel_pattern(x, y, seed)));
 }
 
 }  // namespace umbrix::render

@@ -5,15 +5,20 @@
 
 namespace umbrix::render {
 
-/// A position within a pixel, each coordinate in [0, 1).
-struct PixelSample {
+/// A place in the unit square, each coordinate in [0, 1).
+struct SamplePoint {
   double x = 0;
   double y = 0;
 };
 
 /// The position of sample `index` of `count` in pixel (x, y): a function of its arguments alone, so pixels do not
 /// depend on tiles, threads or crops. The samples of a pixel are stratified in both axes; a lone one is the centre.
-PixelSample pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t count,
+SamplePoint pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t count,
                          std::uint64_t seed);
+
+/// The same for anything else that a pixel's samples choose: independent of its positions and of other purposes. A lone
+/// one is anywhere.
+SamplePoint purpose_sample(std::uint32_t x, std::uint32_t y, std::uint32_t purpose, std::uint32_t index,
+                           std::uint32_t count, std::uint64_t seed);
 
 }  // namespace umbrix::render

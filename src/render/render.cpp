@@ -13,6 +13,7 @@
 #include "render/aovs/aov.h"
 #include "render/camera.h"
 #include "render/direct_light.h"
+#include "render/light_rays.h"
 #include "render/pixel_samples.h"
 
 namespace umbrix::render {
@@ -32,6 +33,7 @@ struct Frame {
   const World& world;
   const View& view;
   const RenderOptions& options;
+  const LightSet& lights;
   Camera camera;
   PixelRect window;  ///< the crop, or all
   std::vector<const Aov*> aovs;
@@ -43,8 +45,9 @@ struct Frame {
 /// Renders one tile, a sample a pixel at a time, keeping its memory from sample to sample.
 class TileRenderer {
  public:
-  explicit TileRenderer(const Frame& frame) : frame_(frame), direct_light_(frame.world, frame.shadow_query) {
-    stats_.lights.resize(frame.view.lights.size());
+  explicit TileRenderer(const Frame& frame)
+      : frame_(frame), light_rays_(frame.lights, frame.options, DirectLight(frame.world, frame.shadow_query)) {
+    stats_.lights.resize(frame.lights.size());
   }
 
   void render(const PixelRect& tile, io::Image& image) {
@@ -53,13 +56,11 @@ class TileRenderer {
     for (std::uint32_t index = 0; index < frame_.options.samples && !frame_.cancelled(); ++index) {
       look(index);
       shade();
-      for (std::size_t i = 0; i < frame_.view.lights.size(); ++i) {
-        direct_light_.add(frame_.view.lights[i], static_cast<std::uint32_t>(i), surfaces_, pixels_, samples_,
-                          stats_.lights[i]);
-      }
-      for (std::size_t i = 0; i < samples_.size(); ++i) {
-        const auto row = static_cast<std::size_t>(pixels_[i].y - tile.y) * static_cast<std::size_t>(tile.width);
-        film.add(row + static_cast<std::size_t>(pixels_[i].x - tile.x), samples_[i]);
+      light_rays_.trace(index, tile_, stats_.lights);
+      for (std::size_t i = 0; i < tile_.samples.size(); ++i) {
+        const Pixel pixel = tile_.pixels[i];
+        const auto row = static_cast<std::size_t>(pixel.y - tile.y) * static_cast<std::size_t>(tile.width);
+        film.add(row + static_cast<std::size_t>(pixel.x - tile.x), tile_.samples[i]);
       }
     }
     film.write(frame_.window, image);
@@ -71,21 +72,21 @@ class TileRenderer {
   /// Lists the tile's pixels so that those near each other follow each other: in blocks of 4x4, these in blocks of
   /// 16x16.
   void order_pixels(const PixelRect& tile) {
-    pixels_.clear();
+    tile_.pixels.clear();
     for (int i = 0; i < kTileSize * kTileSize; ++i) {
       const int big = i / 256, block = i / 16 % 16, within = i % 16;
       const int x = big % 2 * 16 + block % 4 * 4 + within % 4;
       const int y = big / 2 * 16 + block / 4 * 4 + within / 4;
       if (x < tile.width && y < tile.height)
-        pixels_.push_back({static_cast<std::uint16_t>(tile.x + x), static_cast<std::uint16_t>(tile.y + y)});
+        tile_.pixels.push_back({static_cast<std::uint16_t>(tile.x + x), static_cast<std::uint16_t>(tile.y + y)});
     }
   }
 
   /// Sends one camera ray through each pixel.
   void look(std::uint32_t index) {
     rays_.clear();
-    for (const Pixel& pixel : pixels_) {
-      const PixelSample at = pixel_sample(pixel.x, pixel.y, index, frame_.options.samples, frame_.options.seed);
+    for (const Pixel& pixel : tile_.pixels) {
+      const SamplePoint at = pixel_sample(pixel.x, pixel.y, index, frame_.options.samples, frame_.options.seed);
       rays_.push_back(frame_.camera.ray(pixel.x + at.x, pixel.y + at.y));
     }
     hits_.assign(rays_.size(), Hit());
@@ -99,29 +100,32 @@ class TileRenderer {
 
   /// Finds what the rays met, and its own light.
   void shade() {
-    samples_.assign(rays_.size(), CameraSample());
-    surfaces_.resize(rays_.size());
+    tile_.samples.assign(rays_.size(), CameraSample());
+    tile_.surfaces.resize(rays_.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-      if (!hits_[i].valid()) continue;
-      surfaces_[i] = surface_at(frame_.world, rays_[i], hits_[i]);
-      CameraSample& sample = samples_[i];
-      sample.hit = true;
-      sample.radiance = to_vec3(surfaces_[i].material->emission);
+      CameraSample& sample = tile_.samples[i];
+      if (!hits_[i].valid()) {
+        sample.opaque = frame_.lights.surrounds();
+        if (sample.opaque) sample.radiance = frame_.lights.background(glm::normalize(load(rays_[i].direction)));
+        continue;
+      }
+      Surface& surface = tile_.surfaces[i];
+      surface = surface_at(frame_.world, rays_[i], hits_[i]);
+      sample.hit = sample.opaque = true;
+      if (surface.emits) sample.radiance = to_vec3(surface.material->emission);
       sample.depth = hits_[i].t;
-      sample.normal = surfaces_[i].shading_normal;
-      sample.albedo = to_vec3(surfaces_[i].material->base_color);
+      sample.normal = surface.shading_normal;
+      sample.albedo = to_vec3(surface.material->base_color);
       ++stats_.camera_hits;
     }
   }
 
   const Frame& frame_;
-  DirectLight direct_light_;
+  LightRays light_rays_;
   RenderStats stats_;
-  std::vector<Pixel> pixels_;  ///< of each ray
+  TileSamples tile_;
   std::vector<Ray> rays_;
   std::vector<Hit> hits_;
-  std::vector<Surface> surfaces_;
-  std::vector<CameraSample> samples_;
 };
 
 /// Row by row, so that what is done when a render is watched grows from the top.
@@ -149,6 +153,11 @@ Status find_aovs(const RenderOptions& options, std::vector<const Aov*>& aovs) {
 Status find_window(const RenderOptions& options, PixelRect& window) {
   if (options.width < 1 || options.height < 1 || options.samples < 1) {
     return {StatusCode::invalid_argument, "an image needs at least one pixel and one sample"};
+  }
+  if (options.samples > kMostSamples || options.light_samples < 1 || options.light_samples > kMostLightSamples) {
+    return {StatusCode::invalid_argument,
+            fmt::format("{} samples a pixel and {} a light are not from 1 to {} and {}", options.samples,
+                        options.light_samples, kMostSamples, kMostLightSamples)};
   }
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   if (crop.width < 1 || crop.height < 1 || crop.x < 0 || crop.y < 0 || crop.x > options.width - crop.width ||
@@ -218,16 +227,18 @@ Status render(const World& world, const View& view, const RenderOptions& options
   if (Status status = find_window(options, window); !status) return status;
   std::vector<const Aov*> aovs;
   if (Status status = find_aovs(options, aovs); !status) return status;
+  const auto start = std::chrono::steady_clock::now();
+  const LightSet lights(world, view.lights);
   const bool per_ray = std::any_of(aovs.begin(), aovs.end(), [](const Aov* aov) { return aov->counts_work; });
   const Frame frame = {world,
                        view,
                        options,
+                       lights,
                        Camera(view.camera, options.width, options.height),
                        window,
                        aovs,
                        {options.kernel, options.tracer, options.count_work, per_ray}};
 
-  const auto start = std::chrono::steady_clock::now();
   prepare_image(frame, image);
   stats = RenderStats();
   stats.lights.resize(view.lights.size());
@@ -239,7 +250,8 @@ Status render(const World& world, const View& view, const RenderOptions& options
   stats.seconds = seconds_since(start);
   return frame.cancelled() ? Status(StatusCode::cancelled, "rendering was cancelled") : Status();
 } catch (const std::bad_alloc&) {
-  return {StatusCode::resource_limit, fmt::format("no memory for an image of {}x{}", options.width, options.height)};
+  return {StatusCode::resource_limit,
+          fmt::format("no memory for lights and an image of {}x{}", options.width, options.height)};
 }
 
 }  // namespace umbrix::render

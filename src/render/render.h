@@ -23,7 +23,7 @@ struct Crop {
 /// What is seen, and in which light.
 struct View {
   io::Camera camera;
-  std::vector<io::Light> lights;
+  std::vector<io::Light> lights;  ///< of type mesh: of the world's file
 };
 
 struct RenderOptions {
@@ -31,6 +31,9 @@ struct RenderOptions {
   int height = 720;
   std::optional<Crop> crop;   ///< the image holds this part; its pixels are those of the whole frame
   std::uint32_t samples = 1;  ///< a pixel
+  /// Shadow rays of a sample to each light with an area; punctual lights need one. Where there are more than
+  /// kMostSampledLights with an area, that many are chosen among them, by power, in place of each.
+  std::uint32_t light_samples = 1;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;  ///< names of known_aovs()
   KernelId kernel;                ///< of camera rays, and of shadow rays if there is no tracer
@@ -40,6 +43,12 @@ struct RenderOptions {
   const std::atomic<bool>* cancel = nullptr;                          ///< polled for each tile and sample
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< tiles; called by one thread at a time
 };
+
+constexpr std::size_t kMostSampledLights = 8;
+
+/// Limits of RenderOptions::samples and light_samples.
+constexpr std::uint32_t kMostSamples = 65536;
+constexpr std::uint32_t kMostLightSamples = 4096;
 
 struct AovInfo {
   std::string name;
@@ -51,13 +60,13 @@ struct AovInfo {
 /// What RenderOptions::aovs may name.
 std::vector<AovInfo> known_aovs();
 
-/// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it; or with
-/// resource_limit for more than 2^28 pixels.
+/// Fails as render would for options that make no sense: an unknown AOV, an empty image, a crop beyond it, numbers of
+/// samples beyond their limits; or with resource_limit for more than 2^28 pixels.
 Status check_options(const RenderOptions& options);
 
 /// Renders direct light into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on
-/// oneTBB's threads (see with_threads). The pixels depend on the world, the view and the options' image, crop, samples
-/// and seed alone. Fails as check_options; cancelled leaves `image` unfinished.
+/// oneTBB's threads (see with_threads). The pixels depend on the world, the view and the options' image, crop, both
+/// kinds of samples and seed alone. Fails as check_options; cancelled leaves `image` unfinished.
 Status render(const World& world, const View& view, const RenderOptions& options, io::Image& image, RenderStats& stats);
 
 }  // namespace umbrix::render

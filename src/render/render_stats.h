@@ -9,19 +9,24 @@
 
 namespace umbrix::render {
 
-/// What one light cost: each camera sample on a surface is either a shadow ray or skipped for one reason.
+/// What one light cost: each time that a camera sample on a surface asks for it, which may be more than once, it costs
+/// either a shadow ray or is skipped for one reason.
 struct LightStats {
   std::uint64_t occluded = 0;  ///< shadow rays
   std::uint64_t unoccluded = 0;
   std::uint64_t skipped_behind = 0;     ///< the surface faces away
   std::uint64_t skipped_range = 0;      ///< beyond the light's range
   std::uint64_t skipped_cone = 0;       ///< outside the spot's cone
+  std::uint64_t skipped_emitter = 0;    ///< the light shines on its other side
   std::uint64_t skipped_no_power = 0;   ///< black light, or black surface
   RouteCounts<std::uint64_t> routes{};  ///< shadow rays by what answered them
   OcclusionCounts counts;               ///< if asked for; rays of both classes sum to the above
   double seconds = 0;                   ///< in occluded(), summed over threads
 
   std::uint64_t rays() const noexcept { return occluded + unoccluded; }
+  std::uint64_t skipped() const noexcept {
+    return skipped_behind + skipped_range + skipped_cone + skipped_emitter + skipped_no_power;
+  }
 
   LightStats& operator+=(const LightStats& o) noexcept {
     occluded += o.occluded;
@@ -29,6 +34,7 @@ struct LightStats {
     skipped_behind += o.skipped_behind;
     skipped_range += o.skipped_range;
     skipped_cone += o.skipped_cone;
+    skipped_emitter += o.skipped_emitter;
     skipped_no_power += o.skipped_no_power;
     for (std::size_t i = 0; i < kRayRoutes; ++i) routes[i] += o.routes[i];
     counts.occluded += o.counts.occluded;

@@ -71,12 +71,17 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   Vec3 geometric = glm::normalize(glm::cross(p1 - p0, p2 - p0));
   if (mesh.mirrored) geometric = -geometric;
   Vec3 shading = shading_normal(world, mesh, corners, b, geometric);
-  if (glm::dot(geometric, surface.to_viewer) < 0) {
+  const bool behind = glm::dot(geometric, surface.to_viewer) < 0;
+  if (behind) {
     geometric = -geometric;
     shading = -shading;
   }
   surface.geometric_normal = geometric;
   surface.shading_normal = shading;
+  surface.emits = !behind || surface.material->double_sided;
+  float normal[3];
+  store(geometric, normal);
+  offset_origin(surface.point, surface.point_error, normal, normal, surface.origin);
   return surface;
 }
 

@@ -7,14 +7,17 @@
 namespace umbrix::render {
 
 /// The point a ray hit, as shading and shadow rays need it. Both normals are on the side the ray came from: surfaces
-/// are opaque and look the same from both sides, whatever doubleSided says (shadow rays see both sides too).
+/// are opaque and reflect the same on both sides, whatever doubleSided says (shadow rays see both sides too). What a
+/// surface emits, it emits in front, and behind only if it is double-sided.
 struct Surface {
   const io::Material* material = nullptr;
   float point[3] = {};        ///< world space, rounded
   float point_error[3] = {};  ///< bounds how far `point` is from the triangle's plane, per axis
+  float origin[3] = {};       ///< where shadow rays start: `point`, moved off the surface by its rounding error
   Vec3 geometric_normal{0};   ///< unit
   Vec3 shading_normal{0};     ///< unit; interpolated if the mesh has normals
   Vec3 to_viewer{0};          ///< unit
+  bool emits = false;         ///< towards the viewer
   Primitive primitive;
 };
 

@@ -9,7 +9,6 @@
 namespace umbrix::render {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const Vec3 kNormal(0, 0, 1);
 
 Vec3 direction(double cosine, double azimuth) {

@@ -12,8 +12,6 @@
 namespace umbrix::render {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 struct Rendered {
   io::Image image;
   RenderStats stats;

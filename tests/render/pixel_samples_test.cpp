@@ -11,15 +11,15 @@
 namespace umbrix::render {
 namespace {
 
-std::vector<PixelSample> samples_of(std::uint32_t x, std::uint32_t y, std::uint32_t count, std::uint64_t seed = 1) {
-  std::vector<PixelSample> samples;
+std::vector<SamplePoint> samples_of(std::uint32_t x, std::uint32_t y, std::uint32_t count, std::uint64_t seed = 1) {
+  std::vector<SamplePoint> samples;
   for (std::uint32_t i = 0; i < count; ++i) samples.push_back(pixel_sample(x, y, i, count, seed));
   return samples;
 }
 
 TEST(PixelSamples, LieInThePixel) {
   for (std::uint32_t count = 1; count < 70; ++count) {
-    for (const PixelSample& s : samples_of(count, 3, count)) {
+    for (const SamplePoint& s : samples_of(count, 3, count)) {
       EXPECT_TRUE(s.x >= 0 && s.x < 1 && s.y >= 0 && s.y < 1) << count;
     }
   }
@@ -34,7 +34,7 @@ TEST(PixelSamples, FillEachRowOfAnyCount) {
   for (const std::uint32_t count : {2u, 3u, 5u, 7u, 13u, 16u, 31u, 64u}) {
     for (std::uint32_t pixel = 0; pixel < 20; ++pixel) {
       std::set<int> rows;
-      for (const PixelSample& s : samples_of(pixel, 9, count)) rows.insert(static_cast<int>(s.y * count));
+      for (const SamplePoint& s : samples_of(pixel, 9, count)) rows.insert(static_cast<int>(s.y * count));
       EXPECT_EQ(rows.size(), count) << "pixel " << pixel;
     }
   }
@@ -45,7 +45,7 @@ TEST(PixelSamples, FillEachCellAndEachColumnOfASquareCount) {
     for (std::uint32_t pixel = 0; pixel < 20; ++pixel) {
       std::set<std::pair<int, int>> cells;
       std::set<int> columns;
-      for (const PixelSample& s : samples_of(pixel, 2, static_cast<std::uint32_t>(side * side))) {
+      for (const SamplePoint& s : samples_of(pixel, 2, static_cast<std::uint32_t>(side * side))) {
         cells.insert({static_cast<int>(s.x * side), static_cast<int>(s.y * side)});
         columns.insert(static_cast<int>(s.x * side * side));
       }
@@ -56,7 +56,7 @@ TEST(PixelSamples, FillEachCellAndEachColumnOfASquareCount) {
 }
 
 TEST(PixelSamples, DifferBetweenPixelsAndSeeds) {
-  const PixelSample here = samples_of(4, 4, 16)[0];
+  const SamplePoint here = samples_of(4, 4, 16)[0];
   EXPECT_NE(here.x, samples_of(5, 4, 16)[0].x);
   EXPECT_NE(here.x, samples_of(4, 5, 16)[0].x);
   EXPECT_NE(here.x, samples_of(4, 4, 16, 2)[0].x);
@@ -66,7 +66,7 @@ TEST(PixelSamples, AreUnbiasedOverPixels) {
   constexpr std::uint32_t kSide = 64, kCount = 5;
   double x = 0, y = 0;
   for (std::uint32_t pixel = 0; pixel < kSide * kSide; ++pixel) {
-    const PixelSample s = pixel_sample(pixel % kSide, pixel / kSide, 2, kCount, 11);
+    const SamplePoint s = pixel_sample(pixel % kSide, pixel / kSide, 2, kCount, 11);
     x += s.x;
     y += s.y;
   }

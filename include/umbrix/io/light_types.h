@@ -6,25 +6,41 @@
 
 namespace umbrix::io {
 
-/// The types of light, one line each: the name that files use, and what of a Light it reads: its position, its
-/// direction, its cone.
-#define UMBRIX_LIGHT_TYPES(TYPE)  \
-  TYPE(point, true, false, false) \
-  TYPE(spot, true, true, true)    \
-  TYPE(directional, false, true, false)
+/// What a type of light has, which is what of a Light it reads and what files may say of it.
+enum LightTrait : unsigned {
+  kHasPosition = 1,
+  kHasDirection = 2,
+  kHasCone = 4,
+  kHasArea = 8,        ///< points of its own: Light::intensity is a radiance, and its rays are chosen at random
+  kHasEdges = 16,      ///< Light::half_edges
+  kHasRadius = 32,     ///< Light::radius
+  kSurrounds = 64,     ///< infinitely far in all directions; Light::environment
+  kFromMaterial = 128  ///< an emissive mesh: Light::instance
+};
 
-#define UMBRIX_ENUMERATE(name, position, direction, cone) name,
+/// The types of light, one line each: the name that files use, and traits. Those without an area are the types of
+/// KHR_lights_punctual.
+#define UMBRIX_LIGHT_TYPES(TYPE)                                       \
+  TYPE(point, kHasPosition)                                            \
+  TYPE(spot, kHasPosition | kHasDirection | kHasCone)                  \
+  TYPE(directional, kHasDirection)                                     \
+  TYPE(rectangle, kHasPosition | kHasDirection | kHasArea | kHasEdges) \
+  TYPE(sphere, kHasPosition | kHasArea | kHasRadius)                   \
+  TYPE(environment, kHasArea | kSurrounds)                             \
+  TYPE(mesh, kHasArea | kFromMaterial)
+
+#define UMBRIX_ENUMERATE(name, traits) name,
 enum class LightType { UMBRIX_LIGHT_TYPES(UMBRIX_ENUMERATE) };
 #undef UMBRIX_ENUMERATE
 
 struct LightTypeInfo {
   const char* name;
-  bool has_position;
-  bool has_direction;
-  bool has_cone;
+  unsigned traits;  ///< LightTrait
+
+  constexpr bool has(LightTrait trait) const noexcept { return (traits & trait) != 0; }
 };
 
-#define UMBRIX_DESCRIBE(name, position, direction, cone) {#name, position, direction, cone},
+#define UMBRIX_DESCRIBE(name, traits) {#name, traits},
 inline constexpr LightTypeInfo kLightTypes[] = {UMBRIX_LIGHT_TYPES(UMBRIX_DESCRIBE)};
 #undef UMBRIX_DESCRIBE
 

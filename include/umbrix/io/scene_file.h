@@ -56,17 +56,33 @@ struct Instance {
   Transform to_world = kIdentity;
 };
 
-/// A punctual light in world space (KHR_lights_punctual): candela for point and spot, lux for directional.
+/// Radiance from all around, infinitely far away: rows from the top (+y) to the bottom, in equal steps of the angle
+/// from +y. As OpenEXR's latitude-longitude maps, it is seen from within: the middle column looks along +z, the left
+/// half is on the side of +x. Linear Rec.709, finite, not negative.
+struct EnvironmentMap {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::vector<Float3> pixels;  ///< width * height
+};
+
+/// A light in world space. What it emits is color * intensity: candela for point and spot, lux for directional
+/// (KHR_lights_punctual); for those with an area radiance, in candela per square metre, which for a map scales it.
+/// Lights are no geometry: they hide nothing, and only an environment is seen.
 struct Light {
   std::string name;
   LightType type = LightType::point;
   Float3 color{1, 1, 1};
   float intensity = 1;
   float range = std::numeric_limits<float>::infinity();  ///< no light beyond; infinite if the file has none
-  Double3 position{0, 0, 0};
-  Double3 direction{0, 0, -1};  ///< the way the light shines; unit length
+  Double3 position{0, 0, 0};                             ///< the centre
+  Double3 direction{0, 0, -1};  ///< the way the light shines; unit length; of rectangles, the side that shines
   float inner_cone_angle = 0;   ///< radians, for spots
   float outer_cone_angle = 0.7853982f;
+  std::array<Double3, 2> half_edges{{{0.5, 0, 0}, {0, 0.5, 0}}};  ///< of rectangles, orthogonal to each other
+  float radius = 0;                                               ///< of spheres, which shine outwards
+  std::shared_ptr<const EnvironmentMap> environment;              ///< null: the same from everywhere
+  double rotation = 0;         ///< of an environment about +y, in radians, counter-clockwise seen from above
+  std::uint32_t instance = 0;  ///< of meshes, in SceneFile::instances
 };
 
 enum class CameraType { perspective, orthographic };
@@ -126,7 +142,8 @@ struct LoadLimits {
   std::uint64_t triangles = 1ull << 29;  ///< over all instances
   std::uint32_t node_depth = 256;
   std::uint64_t nodes = 1'000'000;
-  bool allow_paths_outside = false;  ///< buffers outside the scene file's folder
+  std::uint64_t environment_pixels = 1ull << 27;  ///< 16384 x 8192
+  bool allow_paths_outside = false;               ///< files named by a file, outside its folder
 };
 
 /// Reads .gltf or .glb (told apart by content). On failure `out` is empty and the message names the file and what is
@@ -143,8 +160,9 @@ struct Setup {
 /// of which the one that matches the scene's file name is taken. A camera is {eye, target, up, fov_y_degrees}, or
 /// {keyframes: [...]}, which is as its first key until camera_at moves it.
 /// A light is [x, y, z] (a point light of the default intensity for its position) or an object;
-/// docs/setup.md has the format.
-UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out);
+/// docs/setup.md has the format. Fails as load_scene does; limits are for what the file names.
+UMBRIX_API Status load_setup(const std::string& path, const SceneFile& scene, Setup& out,
+                             const LoadLimits& limits = {});
 
 /// The intensity in candela that a light at `position` needs to give a white surface that faces it a radiance of 0.5 at
 /// the median distance of what it may shine on (triangles weighted by area over squared distance).
@@ -155,5 +173,9 @@ UMBRIX_API Camera framing_camera(const SceneFile& scene);
 
 /// A directional light of pi lux over the camera's left shoulder, for files that have none.
 UMBRIX_API Light default_light(const Camera& camera);
+
+/// A light of type mesh for each instance whose material emits: its triangles shine on the side of their normals, on
+/// both if the material is double-sided, with the radiance `emission`.
+UMBRIX_API std::vector<Light> emissive_lights(const SceneFile& scene);
 
 }  // namespace umbrix::io

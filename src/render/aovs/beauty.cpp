@@ -4,10 +4,10 @@
 namespace umbrix::render {
 namespace {
 
-// Colour is premultiplied: a sample that meets nothing adds black and no coverage.
+// Colour is premultiplied: a sample that meets nothing adds black and no coverage. An environment covers.
 double contribute(const CameraSample& sample, double* values) {
   for (int c = 0; c < 3; ++c) values[c] = sample.radiance[c];
-  values[3] = sample.hit ? 1 : 0;
+  values[3] = sample.opaque ? 1 : 0;
   return 1;
 }
 

@@ -18,6 +18,6 @@ Arrival arrive_from_direction(const io::Light& light, const Vec3&) {
 
 }  // namespace
 
-extern const LightKind k_directional_light = {arrive_from_direction};
+extern const LightKind k_directional_light = {PunctualLight<arrive_from_direction>::make};
 
 }  // namespace umbrix::render

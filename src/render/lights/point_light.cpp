@@ -24,6 +24,6 @@ Arrival arrive_from_position(const io::Light& light, const Vec3& point) {
   return arrival;
 }
 
-extern const LightKind k_point_light = {arrive_from_position};
+extern const LightKind k_point_light = {PunctualLight<arrive_from_position>::make};
 
 }  // namespace umbrix::render

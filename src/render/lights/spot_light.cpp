@@ -27,6 +27,6 @@ Arrival arrive_from_spot(const io::Light& light, const Vec3& point) {
 
 }  // namespace
 
-extern const LightKind k_spot_light = {arrive_from_spot};
+extern const LightKind k_spot_light = {PunctualLight<arrive_from_spot>::make};
 
 }  // namespace umbrix::render

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// An emissive mesh: a triangle is chosen by its area, since all shine alike, then a point of it. Triangles shine on the
+// side of their normals, on both if the material is double-sided: as they are seen by the camera (Surface::emits).
+#include <algorithm>
+#include <cmath>
+
+#include "render/lights/light.h"
+#include "render/sampling/discrete_distribution.h"
+#include "render/sampling/spherical_triangle.h"
+
+namespace umbrix::render {
+namespace {
+
+/// Outside of these the point is chosen by area: small ones look alike either way and their solid angle has few digits
+/// (seen edge-on it has none); of one that covers nearly a hemisphere the sides cross at angles that are not known
+/// well.
+constexpr double kLeastSolidAngle = 1e-4, kMostSolidAngle = 6.22;
+
+class MeshLight final : public Light {
+ public:
+  MeshLight(const io::Light& light, const World& world) : radiance_(radiance_of(light)) {
+    // A mesh that alpha hides is not in the world, and shines on nothing.
+    const auto found = std::find_if(world.meshes.begin(), world.meshes.end(),
+                                    [&](const WorldMesh& mesh) { return mesh.instance == light.instance; });
+    if (found == world.meshes.end()) return;
+    mesh_ = &*found;
+    double_sided_ = world.file->materials[mesh_->mesh->material].double_sided;
+    std::vector<double> areas;
+    areas.reserve(mesh_->mesh->triangles.size());
+    for (std::size_t i = 0; i < mesh_->mesh->triangles.size(); ++i) areas.push_back(Shape(*mesh_, i).area());
+    by_area_ = DiscreteDistribution(areas);
+  }
+
+  static std::unique_ptr<Light> make(const io::Light& light, const World& world) {
+    return std::make_unique<MeshLight>(light, world);
+  }
+
+  Arrival sample(const Receiver& receiver, const SamplePoint& u) const override {
+    Arrival arrival;
+    if (radiance_ == Rgb(0) || !(by_area_.total() > 0)) {
+      arrival.unreached = Unreached::no_power;
+      return arrival;
+    }
+    const Choice choice = by_area_.choose(u.x);
+    const Shape triangle(*mesh_, choice.index);
+    const double height = glm::dot(receiver.origin - triangle.corners[0], triangle.normal);
+    if (!(height > 0) && !(double_sided_ && height < 0)) {
+      arrival.unreached = Unreached::emitter_faces_away;
+      return arrival;
+    }
+    double solid_angle = 0;  // of the triangle, or as if all of it were seen as the point is
+    const Vec3 target = point_of(triangle, receiver, {choice.rest, u.y}, solid_angle);
+    arrival.to_light = target - receiver.point;
+    arrival.irradiance = radiance_ * (solid_angle / choice.probability);
+    arrival.normal = height > 0 ? triangle.normal : -triangle.normal;
+    arrival.error = triangle.error();
+    return arrival;
+  }
+
+  double power() const override { return luminance(radiance_) * kPi * by_area_.total() * (double_sided_ ? 2 : 1); }
+
+ private:
+  /// A triangle in world space.
+  struct Shape {
+    Shape(const WorldMesh& mesh, std::size_t number) {
+      const std::array<std::uint32_t, 3>& vertices = mesh.mesh->triangles[number];
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = to_vec3(mesh.positions[vertices[k]]);
+      const Vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+      twice_area = glm::length(cross);
+      normal = (mesh.mirrored ? -cross : cross) / twice_area;
+    }
+
+    double area() const { return 0.5 * twice_area; }
+
+    /// A point of the triangle is three products and two sums, of numbers up to the corners'.
+    Vec3 error() const {
+      return glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2])) * 0x1p-49;
+    }
+
+    Vec3 at(double b1, double b2) const { return (1 - b1 - b2) * corners[0] + b1 * corners[1] + b2 * corners[2]; }
+
+    Vec3 corners[3];
+    Vec3 normal;
+    double twice_area;
+  };
+
+  static Vec3 point_of(const Shape& triangle, const Receiver& receiver, const SamplePoint& u, double& solid_angle) {
+    const SphericalTriangle seen(triangle.corners, receiver.origin);
+    if (seen.solid_angle() > kLeastSolidAngle && seen.solid_angle() < kMostSolidAngle) {
+      solid_angle = seen.solid_angle();
+      const SamplePoint b = seen.point(u);
+      return triangle.at(b.x, b.y);
+    }
+    // Uniform in area (Turk 1990).
+    const double root = std::sqrt(u.x);
+    const Vec3 target = triangle.at(root * (1 - u.y), root * u.y);
+    const Vec3 way = target - receiver.origin;
+    const double distance2 = glm::dot(way, way);
+    solid_angle = triangle.area() * std::abs(glm::dot(way, triangle.normal)) / (distance2 * std::sqrt(distance2));
+    return target;
+  }
+
+  Rgb radiance_;
+  const WorldMesh* mesh_ = nullptr;
+  bool double_sided_ = false;
+  DiscreteDistribution by_area_;
+};
+
+}  // namespace
+
+extern const LightKind k_mesh_light = {MeshLight::make};
+
+}  // namespace umbrix::render
