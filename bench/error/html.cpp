@@ -29,7 +29,9 @@ void HtmlTable::start_row(const std::string& name) {
   body_ += fmt::format("<tr><th scope=\"row\">{}</th>", plot::xml_text(name));
 }
 
-void HtmlTable::text(const std::string& text) { body_ += fmt::format("<td>{}</td>", plot::xml_text(text)); }
+void HtmlTable::text(const std::string& text) {
+  body_ += fmt::format("<td class=\"text\">{}</td>", plot::xml_text(text));
+}
 
 void HtmlTable::number(const nlohmann::json& report, const std::string& pointer) {
   body_ += sourced("td", pointer, report.at(nlohmann::json::json_pointer(pointer)));

@@ -15,6 +15,7 @@
 #include "error/statistics.h"
 #include "render/render.h"
 #include "render/threads.h"
+#include "render/vec.h"
 #include "report.h"
 #include "umbrix/io/image_file.h"
 
@@ -48,7 +49,7 @@ io::Light area_light(const io::Light& light, double radius) {
   io::Light sphere = light;
   sphere.type = io::LightType::sphere;
   sphere.radius = static_cast<float>(radius);
-  sphere.intensity = static_cast<float>(light.intensity / (kPi * radius * radius));
+  sphere.intensity = static_cast<float>(light.intensity / (render::kPi * radius * radius));
   return sphere;
 }
 

@@ -23,6 +23,7 @@ caption { text-align: left; font-weight: bold; padding-bottom: .3rem; }
 th, td { padding: .15rem .5rem; text-align: right; border-bottom: 1px solid #eee; vertical-align: baseline; }
 thead th { border-bottom: 2px solid #999; vertical-align: bottom; }
 th[scope=row] { text-align: left; font-weight: normal; white-space: nowrap; }
+td.text { text-align: left; white-space: nowrap; }
 td b { font-weight: inherit; }
 td span, td i { color: #666; font-style: normal; font-size: .92em; white-space: nowrap; }
 summary { cursor: pointer; color: #005a9c; }

@@ -38,6 +38,7 @@ class ScatterPainter {
   std::string paint() {
     std::vector<LegendEntry> legend;
     for (const ScatterSeries& series : chart_.series) {
+      if (series.name.empty()) continue;
       legend.push_back({series.name, [&series](Svg& svg, const Point& at) { draw(svg, series, at); }});
     }
     area_.draw_legend(legend);

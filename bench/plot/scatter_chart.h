@@ -18,7 +18,7 @@ struct ScatterPoint {
 
 /// Points that look alike. Series of one style have one colour; the hollow one is a ring.
 struct ScatterSeries {
-  std::string name;
+  std::string name;       ///< for the legend; empty: not in it
   std::size_t style = 0;  ///< see series_color
   bool hollow = false;
   std::vector<ScatterPoint> points = {};
