@@ -52,7 +52,7 @@ Figure ray_figure(const nlohmann::json& rows, const std::string& scene, const st
   plot::ScatterChart chart;
   chart.title = rays_title(scene, kind);
   chart.x = {"millions of rays a second, one thread", true, {}, {}};
-  chart.y = {"wrong answers a million rays", true, {}, {}};
+  chart.y = {"wrong a million rays", true, {}, {}};
   double bound = 0;
   bool is_any_wrong = false;
   std::uint64_t rays = 0;
@@ -84,7 +84,7 @@ Figure ray_figure(const nlohmann::json& rows, const std::string& scene, const st
   }
   constexpr std::size_t kBlack = 6;
   chart.series.push_back({"filled: leaks, ring: false shadows", kBlack, true});
-  if (!is_any_wrong) chart.height = 360;
+  if (!is_any_wrong) chart.height = 400;
   if (bound > 0) {
     chart.zero_bound = bound;
     chart.zero_note = fmt::format("95 % upper bound where none of {} rays was wrong: {:.2g} a million", rays, bound);
