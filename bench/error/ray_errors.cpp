@@ -49,9 +49,11 @@ Status set_up(const workload::Geometry& geometry, const RayErrorOptions& options
 
   std::vector<std::unique_ptr<Contestant>> kernels;
   if (Status status = make_contestants(options.kernels, kernels); !status) return status;
-  for (auto& kernel : kernels) {
-    arena.peers.push_back(named(std::move(kernel)));
-  }
+  // Under the name "auto" that is the frame tracer; what one gets from a Scene by default is a peer of its own.
+  KernelId by_default;
+  if (Status status = find_kernel("auto", by_default); !status) return status;
+  arena.peers.push_back({kernel_contestant("auto", by_default), "umbrix:auto", "umbrix"});
+  for (auto& kernel : kernels) arena.peers.push_back(named(std::move(kernel)));
   for (const bool is_robust : {true, false}) {
     const std::string suffix = is_robust ? "robust" : "fast";
     for (auto& mode : embree_contestants(is_robust ? arena.robust : arena.fast, suffix)) {

@@ -121,6 +121,10 @@ const Executor& one_thread() {
   return executor;
 }
 
+std::unique_ptr<Contestant> kernel_contestant(std::string name, KernelId kernel) {
+  return std::make_unique<KernelContestant>(std::move(name), kernel);
+}
+
 std::unique_ptr<Contestant> frame_contestant(std::string name, const FrameOptions& options) {
   return std::make_unique<FrameContestant>(std::move(name), options);
 }
@@ -130,8 +134,7 @@ Status make_contestants(const std::vector<std::string>& names, std::vector<std::
   std::vector<std::unique_ptr<Contestant>> known;
   for (std::size_t i = 0; i < kernel_count(); ++i) {
     const std::string name = kernel_info(i).name;
-    if (name != "auto" && name != "brute")
-      known.push_back(std::make_unique<KernelContestant>(name, KernelId{static_cast<int>(i)}));
+    if (name != "auto" && name != "brute") known.push_back(kernel_contestant(name, KernelId{static_cast<int>(i)}));
   }
   known.push_back(frame_contestant("paper", paper_options()));
   known.push_back(frame_contestant("auto", FrameOptions()));

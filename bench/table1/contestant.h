@@ -54,6 +54,9 @@ class Contestant {
 /// "all" is everything but "brute". invalid_argument names the known ones.
 Status make_contestants(const std::vector<std::string>& names, std::vector<std::unique_ptr<Contestant>>& out);
 
+/// A kernel of the table as a contestant.
+std::unique_ptr<Contestant> kernel_contestant(std::string name, KernelId kernel);
+
 /// A frame tracer with these options as a contestant.
 std::unique_ptr<Contestant> frame_contestant(std::string name, const FrameOptions& options);
 
