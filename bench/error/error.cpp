@@ -70,7 +70,15 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
   print_rows(rows);
   report["rows"].insert(report["rows"].end(), rows.begin(), rows.end());
   if (settings.images.samples.empty()) return {};
-  if (Status status = measure_images(geometry, viewpoint, lights[0], settings.images, report["images"]); !status)
+  const auto light =
+      std::find_if(lights.begin(), lights.end(), [&](std::size_t i) { return can_have_area(viewpoint.lights[i]); });
+  if (light == lights.end()) {
+    fmt::print("  no images: no light that is chosen could have an area\n");
+    return {};
+  }
+  if (Status status =
+          measure_images(geometry, viewpoint.camera, viewpoint.lights[*light], settings.images, report["images"]);
+      !status)
     return status;
   print_images(report["images"].back());
   std::fflush(stdout);
@@ -125,7 +133,7 @@ std::function<ExitCode()> error_command(CLI::App& app) {
   scenes->excludes(from);
   app.add_option("--setup", settings->setup, "Camera and lights from this file");
   app.add_option("--light", settings->light,
-                 "Which light's rays, counted from 0, or all; images have the first of them")
+                 "Which light's rays, counted from 0, or all; images have the first that may have an area")
       ->check(light_validator());
   app.add_option("--size", rays.size, "Primary rays in each direction")->check(CLI::Range(1, 1 << 14));
   app.add_option("--adversarial", rays.adversarial, "Adversarial rays of each kind; 0: none")

@@ -44,8 +44,7 @@ double diagonal(const Scene& scene) {
 
 /// The light itself if it has an area, else a sphere around it that gives off as much.
 io::Light area_light(const io::Light& light, double radius) {
-  const io::LightTypeInfo& type = io::light_type_info(light.type);
-  if (type.has(io::kHasArea) || !type.has(io::kHasPosition)) return light;
+  if (io::light_type_info(light.type).has(io::kHasArea)) return light;
   io::Light sphere = light;
   sphere.type = io::LightType::sphere;
   sphere.radius = static_cast<float>(radius);
@@ -53,11 +52,11 @@ io::Light area_light(const io::Light& light, double radius) {
   return sphere;
 }
 
-Status set_up(const workload::Geometry& geometry, const workload::Viewpoint& viewpoint, std::size_t light,
+Status set_up(const workload::Geometry& geometry, const io::Camera& camera, const io::Light& light,
               const ImageCurveOptions& options, Studio& studio) {
   if (Status status = render::build_world(geometry.file, {}, studio.world); !status) return status;
   const double radius = options.radius * diagonal(studio.world.scene);
-  studio.view = {viewpoint.camera, {area_light(viewpoint.lights[light], radius)}};
+  studio.view = {camera, {area_light(light, radius)}};
   for (const std::string& name : options.kernels) {
     Tracing tracing{name};
     if (name == "frames:best") {
@@ -90,10 +89,12 @@ Status render_image(Studio& studio, const ImageCurveOptions& options, std::uint3
   return status;
 }
 
-/// The mean of images of as many rays as one can have.
-Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64_t first_seed, Rgb& out) {
+/// The mean of images of as many rays as one can have: at least as many in all as the options ask for.
+Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64_t first_seed, Rgb& out,
+                   std::uint64_t& samples) {
   const std::uint32_t most = std::min(options.reference, render::kMostLightSamples);
   const std::uint32_t images = (options.reference + most - 1) / most;
+  samples += std::uint64_t{most} * images;
   for (std::uint32_t i = 0; i < images; ++i) {
     io::Image image;
     std::uint64_t rays = 0;
@@ -109,13 +110,14 @@ Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64
 struct Reference {
   Rgb rgb;
   ImageError noise;
+  std::uint64_t samples = 0;
 };
 
 Status render_reference(Studio& studio, const ImageCurveOptions& options, Reference& out) {
   constexpr std::uint64_t kSeeds[] = {1'000'000, 2'000'000};  // far from those of the images
   Rgb halves[2];
   for (std::size_t i = 0; i < 2; ++i) {
-    if (Status status = render_half(studio, options, kSeeds[i], halves[i]); !status) return status;
+    if (Status status = render_half(studio, options, kSeeds[i], halves[i], out.samples); !status) return status;
   }
   out.noise = noise_of_mean(halves[0], halves[1]);
   out.rgb.resize(halves[0].size());
@@ -203,10 +205,15 @@ nlohmann::json point_json(const Studio& studio, std::uint32_t samples, const Ref
 
 }  // namespace
 
-Status measure_images(const workload::Geometry& geometry, const workload::Viewpoint& viewpoint, std::size_t light,
+bool can_have_area(const io::Light& light) {
+  const io::LightTypeInfo& type = io::light_type_info(light.type);
+  return type.has(io::kHasArea) || type.has(io::kHasPosition);
+}
+
+Status measure_images(const workload::Geometry& geometry, const io::Camera& camera, const io::Light& light,
                       const ImageCurveOptions& options, nlohmann::json& out) {
   Studio studio;
-  if (Status status = set_up(geometry, viewpoint, light, options, studio); !status) return status;
+  if (Status status = set_up(geometry, camera, light, options, studio); !status) return status;
   Reference reference;
   if (Status status = render_reference(studio, options, reference); !status) return status;
   if (Status status = keep_reference(options, geometry.name, reference.rgb); !status) return status;
@@ -228,7 +235,7 @@ Status measure_images(const workload::Geometry& geometry, const workload::Viewpo
                  {"seeds", options.seeds},
                  {"light", {{"type", io::light_type_info(shining.type).name}, {"radius", shining.radius}}},
                  {"reference",
-                  {{"samples", 2 * std::uint64_t{options.reference}},
+                  {{"samples", reference.samples},
                    {"mean", mean},
                    {"noise_rmse", reference.noise.rmse},
                    {"noise_relmse", reference.noise.relmse},

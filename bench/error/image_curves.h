@@ -9,7 +9,6 @@
 #include "umbrix/io/scene_file.h"
 #include "umbrix/status.h"
 #include "workload/geometry.h"
-#include "workload/shadow_rays.h"
 
 namespace umbrix::bench {
 
@@ -23,11 +22,14 @@ struct ImageCurveOptions {
   std::string keep;  ///< a folder for the images as PNG, named SCENE-reference and SCENE-SAMPLES-SEED; empty: none
 };
 
-/// Renders direct light from the light with the given number, an area light or made one, with one camera ray through
-/// each pixel's centre, and compares with a reference of other seeds. Every kernel renders every image, on one thread,
+/// Whether images may have this light: it has an area, or a place that a sphere can be put around.
+bool can_have_area(const io::Light& light);
+
+/// Renders direct light from one light, for which can_have_area is true, with one camera ray through each pixel's
+/// centre, and compares with a reference of other seeds. Every kernel renders every image, on one thread,
 /// by turns; internal if two images of the same seed differ in a bit. Adds a member for the scene to `out`:
 /// {"scene", "light", "reference", "points": [{"samples", "rmse", ..., "times"}]}.
-Status measure_images(const workload::Geometry& geometry, const workload::Viewpoint& viewpoint, std::size_t light,
+Status measure_images(const workload::Geometry& geometry, const io::Camera& camera, const io::Light& light,
                       const ImageCurveOptions& options, nlohmann::json& out);
 
 }  // namespace umbrix::bench

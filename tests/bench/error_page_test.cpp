@@ -113,7 +113,8 @@ class ErrorPage : public testing::Test {
 
 TEST_F(ErrorPage, IsWholeAndTrue) {
   const std::string in_folder = "'" + folder_.string() + "/";
-  ASSERT_EQ(run(UMBRIX_BENCH_PATH " error '" UMBRIX_SCENE "' --size 32 --adversarial 200 --rounds 1 --samples 1,4"
+  ASSERT_EQ(run(UMBRIX_BENCH_PATH " error '" UMBRIX_SCENE
+                                  "' --kernels standard,beam,auto --size 32 --adversarial 200 --rounds 1 --samples 1,4"
                                   " --seeds 2 --reference 64 --image-size 16 --json " +
                 in_folder + "error.json' --out '" + folder_.string() + "' > " + in_folder + "log'"),
             0)
