@@ -9,6 +9,7 @@
 
 #include "core/exact_test.h"
 #include "core/float_mode.h"
+#include "core/parallel_for.h"
 #include "kernels/kernel.h"
 #include "tree/builder.h"
 
@@ -141,7 +142,7 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
     if (mesh_id) *mesh_id = number;
     return {};
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, "scene: out of memory while adding a mesh"};
+    return Status::out_of_memory("scene: out of memory while adding a mesh");
   }
 }
 
@@ -176,10 +177,10 @@ Status Scene::commit(const BuildOptions& options) {
     return {};
   } catch (const std::bad_alloc&) {
     impl_.reset();
-    return {StatusCode::resource_limit, "scene: out of memory while building the tree"};
+    return Status::out_of_memory("scene: out of memory while building the tree");
   } catch (const std::exception& e) {
     impl_.reset();
-    return {StatusCode::internal, std::string("scene: the executor failed: ") + e.what()};
+    return detail::parallel_failure("scene", options.executor, e);
   }
 }
 
@@ -198,9 +199,9 @@ Status Scene::prepare(KernelId kernel, const Training& training, PrepareStats* s
     if (stats && slot) stats->bytes = slot->bytes();
     return {};
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, std::string("scene: out of memory while preparing kernel ") + entry.info.name};
+    return Status::out_of_memory("scene: out of memory while preparing a kernel");
   } catch (const std::exception& e) {
-    return {StatusCode::internal, std::string("scene: the executor failed: ") + e.what()};
+    return detail::parallel_failure("scene", training.executor, e);
   }
 }
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exit_code.h"
 
+#include <csignal>
+
 #include "message.h"
-#include "signals.h"
 
 namespace umbrix::app {
 
 int report_status(const Status& status) {
   if (status.ok()) return kComplete;
-  if (status.code() == StatusCode::cancelled) {
-    say_error("interrupted");
-    return 128 + received_signal();
-  }
+  // As if the signal had ended the program, which is what shells and scripts expect of a pipe that was closed.
+  if (status.code() == StatusCode::cancelled) return 128 + SIGPIPE;
   say_error(status.message());
   switch (status.code()) {
     case StatusCode::bad_input:

@@ -16,7 +16,8 @@ enum ExitCode : int {
   kResourceLimit = 6,  ///< memory or a documented limit ran out
 };
 
-/// Says what is wrong on stderr, if anything is, and returns the code for it. An interruption becomes 128 + signal.
+/// Says what is wrong on stderr, if anything is, and returns the code for it. Where nobody reads
+/// standard output any more it says nothing and the code is that of SIGPIPE, 141.
 int report_status(const Status& status);
 
 }  // namespace umbrix::app

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "heat_map_files.h"
+#include "memory_guard.h"
 #include "progress.h"
-#include "signals.h"
 #include "stopwatch.h"
 #include "umbrix/version.h"
 
@@ -29,7 +29,7 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
 }
 
 Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
-  const SignalScope stop(OnSignal::stop);
+  set_phase("rendering");
   const Stopwatch watch;
   render::RenderOptions options = render_options(job);
   if (job.arguments.kernel_name == "auto") options.tracer = &job.tracer;
@@ -41,11 +41,9 @@ Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& 
   return status;
 }
 
-/// All files of the frame or, after an interruption, none.
 Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, FrameReport& report) {
-  const SignalScope hold(OnSignal::hold);
+  set_phase("writing images");
   const Stopwatch watch;
-  if (interrupted()) return {StatusCode::cancelled, "interrupted"};
   add_metadata(job, frame, image);
   for (const std::string& path : frame.outputs) {
     if (Status status = io::write_image(path, image, job.arguments.write); !status) return status;
@@ -90,7 +88,6 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;
   options.count_work = !a.stats.empty();
-  options.cancel = &interrupted();
   return options;
 }
 

@@ -9,7 +9,7 @@ namespace umbrix::app {
 render::RenderOptions render_options(const RenderJob& job);
 
 /// Renders the frames one after the other and writes each as soon as it is finished, so that an interruption leaves
-/// whole frames.
+/// whole files.
 Status render_frames(RenderJob& job);
 
 }  // namespace umbrix::app

@@ -8,9 +8,12 @@
 
 #include "commands.h"
 #include "exit_code.h"
+#include "memory_guard.h"
+#include "memory_limit.h"
 #include "message.h"
 #include "render/render.h"
 #include "render/world.h"
+#include "standard_streams.h"
 
 namespace umbrix::app {
 namespace {
@@ -43,6 +46,19 @@ Json lights(const io::SceneFile& scene) {
     if (io::light_type_info(light.type).has(io::kHasPosition)) entry["position"] = light.position;
     if (io::light_type_info(light.type).has(io::kHasDirection)) entry["direction"] = light.direction;
     list.push_back(entry);
+  }
+  return list;
+}
+
+/// Meshes that are lights, by the light that each instance makes.
+Json emissive_meshes(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (const io::Light& light : io::emissive_lights(scene)) {
+    const io::Mesh& mesh = scene.meshes[scene.instances[light.instance].mesh];
+    list.push_back({{"name", light.name},
+                    {"triangles", mesh.triangles.size()},
+                    {"radiance", light.color},
+                    {"double_sided", scene.materials[mesh.material].double_sided}});
   }
   return list;
 }
@@ -80,40 +96,39 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"bounds", bounds(meshes)},
           {"cameras", cameras(scene)},
           {"lights", lights(scene)},
+          {"emissive_meshes", emissive_meshes(scene)},
           {"extensions_used", scene.extensions_used},
           {"ignored", scene.ignored},
           {"warnings", warnings}};
 }
 
 /// One line for a plain value, one for each element of a list.
-void print_table(const Json& description) {
+std::string table(const Json& description) {
+  std::string lines;
   for (const auto& [key, value] : description.items()) {
     const auto text = [](const Json& v) {
       return printable(v.is_string() ? v.get<std::string>() : v.dump(-1, ' ', false, Json::error_handler_t::replace));
     };
     if (!value.is_array()) {
-      fmt::print("{:18}{}\n", key, text(value));
+      lines += fmt::format("{:18}{}\n", key, text(value));
       continue;
     }
-    fmt::print("{:18}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
-    for (const Json& element : value) fmt::print("{:18}  {}\n", "", text(element));
+    lines += fmt::format("{:18}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
+    for (const Json& element : value) lines += fmt::format("{:18}  {}\n", "", text(element));
   }
+  return lines;
 }
 
-int run(const std::string& path, bool json) {
+Status run(const std::string& path, bool json) {
   io::SceneFile scene;
-  if (Status status = io::load_scene(path, scene); !status) return report_status(status);
+  if (Status status = io::load_scene(path, scene); !status) return status;
   std::vector<render::WorldMesh> meshes;
   std::vector<std::string> notes;
-  if (Status status = render::flatten(scene, meshes, notes); !status) return report_status(status);
+  if (Status status = render::flatten(scene, meshes, notes); !status) return status;
   const Json description = describe(scene, meshes, notes);
-  if (json) {
-    // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
-    fmt::print("{}\n", description.dump(2, ' ', false, Json::error_handler_t::replace));
-  } else {
-    print_table(description);
-  }
-  return kComplete;
+  // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
+  return print_result(json ? description.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'
+                           : table(description));
 }
 
 }  // namespace
@@ -124,7 +139,13 @@ Command add_info_command(CLI::App& program) {
   const auto json = std::make_shared<bool>(false);
   parser->add_option("scene", *path, "A glTF 2.0 file, .gltf or .glb")->required()->type_name("SCENE");
   parser->add_flag("--json", *json, "For programs");
-  return {parser, [path, json] { return run(*path, *json); }};
+  const auto memory_limit = std::make_shared<std::uint64_t>(default_memory_limit());
+  add_memory_limit_option(*parser, *memory_limit);
+  return {parser, [path, json, memory_limit] {
+            limit_memory(*memory_limit);
+            set_phase("reading the scene");
+            return report_status(run(*path, *json));
+          }};
 }
 
 }  // namespace umbrix::app

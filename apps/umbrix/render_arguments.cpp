@@ -153,6 +153,7 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
   add_integer(
       command, "-j,--threads", 0, 1024, [&a](auto n) { a.threads = static_cast<int>(n); },
       "Threads; 0: all that the machine, the affinity mask and the container allow [0]");
+  add_memory_limit_option(command, a.memory_limit);
 }
 
 void add_talking_options(CLI::App& command, RenderArguments& a) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "memory_limit.h"
 #include "progress.h"
 #include "render/heat_map/heat_map.h"
 #include "render/render.h"
@@ -46,7 +47,8 @@ struct RenderArguments {
   std::string kernel_name = "auto";
   std::string simd_target;  ///< empty: the best
   BuildQuality build_quality = BuildQuality::high;
-  int threads = 0;  ///< 0: all that are allowed
+  int threads = 0;                                      ///< 0: all that are allowed
+  std::uint64_t memory_limit = default_memory_limit();  ///< bytes; 0: none
   bool skip_existing = false;
   bool create_folders = false;
   bool dry_run = false;

@@ -11,12 +11,14 @@
 #include "frame_loop.h"
 #include "frame_plan.h"
 #include "heat_map_files.h"
+#include "memory_guard.h"
+#include "memory_plan.h"
 #include "message.h"
 #include "output_files.h"
 #include "render/threads.h"
 #include "render_job.h"
 #include "render_report.h"
-#include "signals.h"
+#include "standard_streams.h"
 #include "stopwatch.h"
 #include "thread_count.h"
 #include "view_choice.h"
@@ -39,31 +41,41 @@ void warn(const RenderJob& job) {
   for (const std::string& text : job.scene.ignored) say(fmt::format("umbrix: ignored: {}", text));
 }
 
-void describe_plan(const RenderJob& job) {
-  fmt::print("{}: {} triangles, {} lights, {}x{} pixels, {} samples\n", printable(job.scene.path),
-             job.scene.instanced_triangles(), job.view.lights.size(), job.size.width, job.size.height,
-             job.arguments.samples);
+Status describe_plan(const RenderJob& job) {
+  std::string text = fmt::format("{}: {} triangles, {} lights, {}x{} pixels, {} samples, about {} MB of memory\n",
+                                 printable(job.scene.path), job.scene.instanced_triangles(), job.view.lights.size(),
+                                 job.size.width, job.size.height, job.arguments.samples, plan_memory(job).peak() >> 20);
   const std::string frames = job.arguments.frames.empty() ? "" : fmt::format(", {} frames", job.frames.size());
   for (const std::vector<std::string>& list : {job.arguments.outputs, heat_map_files(job.arguments.heat_maps)}) {
-    for (const std::string& path : list) fmt::print("would write {}{}\n", printable(path), frames);
+    for (const std::string& path : list) text += fmt::format("would write {}{}\n", printable(path), frames);
   }
+  return print_result(text);
+}
+
+/// A file that does not fit into memory is told by its size.
+io::LoadLimits load_limits(const RenderArguments& a) {
+  io::LoadLimits limits;
+  if (a.memory_limit > 0) limits.file_bytes = std::min(limits.file_bytes, a.memory_limit);
+  return limits;
 }
 
 /// Reads the inputs and checks all that can be checked before work begins.
 Status load(RenderJob& job) {
   const Stopwatch watch;
+  set_phase("reading the scene");
   const RenderArguments& a = job.arguments;
   if (Status status = plan_frames(a, job.frames); !status) return status;
   if (!a.create_folders) {
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
-  if (Status status = io::load_scene(a.scene, job.scene); !status) return status;
+  if (Status status = io::load_scene(a.scene, job.scene, load_limits(a)); !status) return status;
   if (Status status = choose_view(job.scene, a.setup, a.camera, a.mesh_lights, job.view, job.camera_file); !status) {
     return status;
   }
   if (Status status = place_cameras(job); !status) return status;
   job.size = frame_size(a, job.view.camera);
   if (Status status = render::check_options(render_options(job)); !status) return status;
+  if (Status status = check_memory(job); !status) return status;
   if (a.create_folders && !a.dry_run) {
     if (Status status = create_output_folders(a); !status) return status;
     if (Status status = check_outputs(a, job.frames); !status) return status;
@@ -76,6 +88,7 @@ Status load(RenderJob& job) {
 
 Status build(RenderJob& job) {
   const Stopwatch watch;
+  set_phase("building the tree");
   BuildOptions options;
   options.quality = job.arguments.build_quality;
   Status status = render::build_world(job.scene, options, job.world);
@@ -96,17 +109,14 @@ Status write_report(const RenderJob& job) {
   // A run that is repeated and finds all done keeps the report of the one that did it.
   std::error_code error;
   if (job.frames.empty() && std::filesystem::exists(a.stats, error)) return {};
-  const SignalScope hold(OnSignal::hold);
   return io::write_text(a.stats, stats_text(job), a.write.overwrite || a.skip_existing);
 }
 
 Status run(const RenderArguments& a) {
   RenderJob job(a);
+  limit_memory(a.memory_limit);
   if (Status status = load(job); !status) return status;
-  if (a.dry_run) {
-    describe_plan(job);
-    return {};
-  }
+  if (a.dry_run) return describe_plan(job);
   job.threads = a.threads > 0 ? a.threads : allowed_threads();
   Status status;
   const auto work = [&] {

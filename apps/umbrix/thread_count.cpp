@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
-#include <string>
 #include <thread>
+
+#include "control_group.h"
 
 namespace umbrix::app {
 namespace {
@@ -21,17 +21,8 @@ int affinity_threads() {
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// The path after "0::" in /proc/self/cgroup; "/" if it cannot be told.
-std::filesystem::path control_group() {
-  std::ifstream file("/proc/self/cgroup");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind("0::/", 0) == 0) return line.substr(3);
-  }
-  return "/";
-}
-
 int quota_threads(const std::filesystem::path& group, int otherwise) {
-  std::ifstream file("/sys/fs/cgroup" + (group / "cpu.max").string());
+  std::ifstream file(group / "cpu.max");
   double quota = 0, period = 0;
   if (!(file >> quota >> period) || quota <= 0 || period <= 0) return otherwise;
   return std::max(1, static_cast<int>(std::ceil(quota / period)));
@@ -41,10 +32,10 @@ int quota_threads(const std::filesystem::path& group, int otherwise) {
 
 int allowed_threads() {
   int threads = std::max(1, affinity_threads());
-  for (std::filesystem::path group = control_group();; group = group.parent_path()) {
+  for (const std::filesystem::path& group : control_groups("cpu")) {
     threads = std::min(threads, quota_threads(group, threads));
-    if (group == group.parent_path()) return threads;
   }
+  return threads;
 }
 
 }  // namespace umbrix::app

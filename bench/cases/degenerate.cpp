@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles that builders and tests dislike: without area, needles, copies, and many through one point or edge.
+// Triangles that builders and tests dislike: without area, needles, many through one point or edge, and of all sizes.
 #include <cmath>
 #include <limits>
 
@@ -43,20 +43,6 @@ CaseData degenerate_soup(std::uint64_t seed, std::size_t ray_count) {
     }
   }
   aim_at_triangles(data, ray_count, 1.5f, random);
-  return data;
-}
-
-CaseData duplicates(std::uint64_t seed, std::size_t ray_count) {
-  Random random(seed);
-  const Triangles base = icosphere(1, 1, 0.2f, {0, 0, 0}, random).triangles;
-  CaseData data;
-  const std::size_t copies = std::size_t{2} + random.below(random.chance(0.1) ? 99 : 9);
-  for (std::size_t i = 0; i < base.size() * copies; ++i) {
-    oracle::Triangle t = base[i % base.size()];
-    if (random.chance(0.3)) std::swap(t.v[1], t.v[2]);
-    data.triangles.push_back(t);
-  }
-  aim_at_triangles(data, ray_count, 2, random);
   return data;
 }
 
@@ -128,6 +114,31 @@ CaseData nested_sizes(std::uint64_t seed, std::size_t ray_count) {
     const Float3 origin = scale(random.in_cube(2), std::ldexp(1.0f, -static_cast<int>(random.below(61))));
     data.rays.push_back(ray_to(origin, target, 0, random.chance(0.5) ? 2.0f : kInfinity));
   }
+  return data;
+}
+
+CaseData cantor_dust(std::uint64_t seed, std::size_t ray_count) {
+  Random random(seed);
+  CaseData data;
+  // Points whose coordinates have no digit 1 in base 3: clusters of clusters, down to a float's last bits.
+  const auto dust_point = [&] {
+    Float3 p;
+    for (float& x : p) {
+      double sum = 0, digit = 1;
+      for (int level = 0; level < 16; ++level) {
+        digit /= 3;
+        sum += random.chance(0.5) ? 2 * digit : 0;
+      }
+      x = static_cast<float>(sum);
+    }
+    return p;
+  };
+  for (int i = 0; i < 300; ++i) {
+    const Float3 a = dust_point();
+    const float size = static_cast<float>(std::pow(3.0, -static_cast<double>(1 + random.below(14))));
+    data.triangles.push_back(triangle(a, add(a, random.in_cube(size)), add(a, random.in_cube(size))));
+  }
+  aim_at_triangles(data, ray_count, 1.5f, random);
   return data;
 }
 

@@ -8,17 +8,25 @@ namespace umbrix::cases {
 
 using Make = CaseData(std::uint64_t seed, std::size_t ray_count);
 
-// closed_meshes.cpp
-Make closed_interior, closed_corners, closed_midpoints, closed_edges, silhouettes;
+// closed_meshes.cpp; the rest of it in closed_meshes.h
+Make silhouettes;
 
 // planes.cpp
-Make grazing, axis_parallel, split_planes, box_corners, origins_on_geometry, flat_scene, integer_grid;
+Make axis_parallel, split_planes, box_corners, origins_on_geometry, flat_scene, tilted_flat_scene, integer_grid;
+/// Angles of 10^exponent to 10^(exponent + 1) radians to a large sheet.
+CaseData grazing(int exponent, std::uint64_t seed, std::size_t ray_count);
+
+// tree_places.cpp
+Make tree_planes, tree_corners;
 
 // degenerate.cpp
-Make degenerate_soup, duplicates, slivers, coincident, fan, shared_edge, nested_sizes;
+Make degenerate_soup, slivers, coincident, fan, shared_edge, nested_sizes, cantor_dust;
 
 // scales.cpp
 Make scaled_power_of_two, scaled_any, translated, mixed_scale, whole_float_range, far_origins;
+
+// same_answers.cpp: each with the plain case it must agree with
+Make duplicates, permuted, flipped, mirrored, axes_swapped, reversed, split_in_four, power_of_two_twin;
 
 // invalid_values.cpp
 Make invalid_vertices, invalid_rays;
@@ -28,5 +36,20 @@ Make tiny_scenes;
 
 // interval_ends.cpp
 Make interval_ends, random_segments;
+
+// surface_points.cpp: rays from points of surfaces, moved off by offset_origin
+Make offset_outward, offset_inward, no_distance, convex_in_front, inside_single_walls, inside_single_wall_edges;
+/// From within thin walls, `thickness` times as thick as the largest offset.
+CaseData inside_thin_walls(float thickness, std::uint64_t seed, std::size_t ray_count);
+enum class LightPlace { inside, on_face, at_vertex, on_edge, on_split_plane, outside, directional };
+CaseData light_at(LightPlace place, std::uint64_t seed, std::size_t ray_count);
+
+// huge.cpp: `count` triangles
+CaseData huge_degenerate_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count);
+CaseData huge_soup_with_one_bad(std::size_t count, std::uint64_t seed, std::size_t ray_count);
+CaseData huge_coincident(std::size_t count, std::uint64_t seed, std::size_t ray_count);
+CaseData huge_fan(std::size_t count, std::uint64_t seed, std::size_t ray_count);
+CaseData huge_shared_edge(std::size_t count, std::uint64_t seed, std::size_t ray_count);
+CaseData huge_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count);
 
 }  // namespace umbrix::cases

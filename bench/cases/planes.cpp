@@ -55,7 +55,7 @@ Triangles room(Random& random) {
 
 }  // namespace
 
-CaseData grazing(std::uint64_t seed, std::size_t ray_count) {
+CaseData grazing(int exponent, std::uint64_t seed, std::size_t ray_count) {
   Random random(seed);
   CaseData data{sheet(16, 100, random.chance(0.5) ? 0.0f : 1.7f), {}};
   if (random.chance(0.5)) {  // tilted, so that the plane is not representable
@@ -67,7 +67,7 @@ CaseData grazing(std::uint64_t seed, std::size_t ray_count) {
     const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
     const Float3 other = point_on(data.triangles[random.below(data.triangles.size())], random);
     Float3 d = subtract(target, other);
-    d[2] += 100 * random.magnitude(-7, -1) * random.sign();
+    d[2] += 100 * random.magnitude(exponent, exponent + 1) * random.sign();
     data.rays.push_back({{target[0] - d[0], target[1] - d[1], target[2] - d[2]},
                          0,
                          {d[0], d[1], d[2]},
@@ -167,6 +167,26 @@ CaseData flat_scene(std::uint64_t seed, std::size_t ray_count) {
     const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
     Float3 origin = random.in_cube(2);
     if (random.chance(0.2)) origin[axis] = 0.25f;
+    data.rays.push_back(ray_to(origin, target, 0, random.chance(0.5) ? 1.0f : 2.0f));
+  }
+  return data;
+}
+
+CaseData tilted_flat_scene(std::uint64_t seed, std::size_t ray_count) {
+  Random random(seed);
+  // Halves and quarters of small numbers: the plane is exact though no axis is in it.
+  const auto height = [](const Float3& p) { return 0.5f * p[0] - 0.25f * p[1] + 0.125f; };
+  CaseData data{sheet(8, 1, 0), {}};
+  for (oracle::Triangle& t : data.triangles) {
+    for (auto& corner : t.v) corner[2] = height({corner[0], corner[1], 0});
+  }
+  for (std::size_t i = 0; i < ray_count; ++i) {
+    const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
+    Float3 origin = random.in_cube(2);
+    if (random.chance(0.2)) {
+      for (float& x : origin) x = std::round(x * 16) / 16;
+      origin[2] = height(origin);
+    }
     data.rays.push_back(ray_to(origin, target, 0, random.chance(0.5) ? 1.0f : 2.0f));
   }
   return data;

@@ -4,7 +4,7 @@
 // differ. In each round every peer runs once, so that a disturbance of the machine meets all of them.
 #include "error/ray_errors.h"
 
-#include <fmt/core.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -79,6 +79,13 @@ workload::TiledRays in_tiles(std::vector<Ray> rays) {
   return tiled;
 }
 
+/// The exact answers, found on all cores.
+std::vector<std::uint8_t> find_truth(const oracle::BoxTree& tree, const std::vector<Ray>& rays) {
+  std::vector<std::uint8_t> truth(rays.size());
+  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) { truth[i] = tree.occluded(rays[i]) ? 1 : 0; });
+  return truth;
+}
+
 void judge(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_t>& answers,
            const std::vector<float>& irradiance, PeerErrors& out) {
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -91,7 +98,7 @@ void judge(const std::vector<std::uint8_t>& truth, const std::vector<std::uint8_
 /// Asks all peers about the last of the frames.
 Status ask(Arena& arena, const Frames& frames, const Training& lights, int rounds, RayErrors& out) {
   const workload::TiledRays& rays = frames.back();
-  const std::vector<std::uint8_t> truth = arena.truth->occluded(rays.rays);
+  const std::vector<std::uint8_t> truth = find_truth(*arena.truth, rays.rays);
   out.rays = rays.rays.size();
   for (std::size_t i = 0; i < truth.size(); ++i) {
     out.occluded += truth[i];

@@ -11,8 +11,6 @@
 namespace umbrix::judge {
 namespace {
 
-using Triangles = std::vector<oracle::Triangle>;
-
 struct Answers {
   std::string truth;
   std::string given;
@@ -48,14 +46,27 @@ bool is_wrong(const Triangles& triangles, const Ray& ray, const Question& questi
   return answers.truth != answers.given;
 }
 
-// Drops ever smaller runs of triangles as long as the answer stays wrong.
-Triangles fewest(Triangles triangles, const Ray& ray, const Question& question) {
+std::string vector_text(const float v[3]) { return fmt::format("{{{:a}f, {:a}f, {:a}f}}", v[0], v[1], v[2]); }
+
+std::string triangles_text(const Triangles& triangles) {
+  constexpr std::size_t kShown = 8;
+  std::string text = "\n  triangles";
+  for (std::size_t i = 0; i < std::min(kShown, triangles.size()); ++i) {
+    const auto& v = triangles[i].v;
+    text += fmt::format("\n    {{{}, {}, {}}}", vector_text(v[0]), vector_text(v[1]), vector_text(v[2]));
+  }
+  return triangles.size() > kShown ? text + fmt::format("\n    and {} more", triangles.size() - kShown) : text;
+}
+
+}  // namespace
+
+Triangles fewest(Triangles triangles, const std::function<bool(const Triangles&)>& is_wrong) {
   for (std::size_t run = triangles.size() / 2; run > 0; run /= 2) {
     for (std::size_t begin = 0; begin < triangles.size();) {
       Triangles fewer = triangles;
       const auto first = fewer.begin() + static_cast<std::ptrdiff_t>(begin);
       fewer.erase(first, first + static_cast<std::ptrdiff_t>(std::min(run, fewer.size() - begin)));
-      if (is_wrong(fewer, ray, question)) {
+      if (is_wrong(fewer)) {
         triangles = std::move(fewer);
       } else {
         begin += run;
@@ -65,33 +76,27 @@ Triangles fewest(Triangles triangles, const Ray& ray, const Question& question) 
   return triangles;
 }
 
-std::string vector_text(const float v[3]) { return fmt::format("{{{:a}f, {:a}f, {:a}f}}", v[0], v[1], v[2]); }
-
-}  // namespace
-
-std::string describe(const cases::CaseData& data, const Complaint& complaint) {
-  const Ray& ray = data.rays[complaint.ray];
+Failure minimise(const cases::CaseData& data, const Complaint& complaint) {
   const Question& question = complaint.question;
-  std::string text = fmt::format("{} {} {}", question.kernel, question.simd_target,
-                                 question.query == Query::occluded ? "occluded" : "closest");
-  if (Status status = use_simd_target(question.simd_target.c_str()); !status) return text + status.message();
-  if (is_wrong(data.triangles, ray, question)) {
-    const Triangles triangles = fewest(data.triangles, ray, question);
-    const Answers answers = ask(triangles, ray, question);
-    text += fmt::format(": answered {}, the truth is {}\n  triangles", answers.given, answers.truth);
-    constexpr std::size_t kShown = 8;
-    for (std::size_t i = 0; i < std::min(kShown, triangles.size()); ++i) {
-      const auto& v = triangles[i].v;
-      text += fmt::format("\n    {{{}, {}, {}}}", vector_text(v[0]), vector_text(v[1]), vector_text(v[2]));
-    }
-    if (triangles.size() > kShown) text += fmt::format("\n    and {} more", triangles.size() - kShown);
+  Failure failure{fmt::format("{} {} {}", question.kernel, question.simd_target,
+                              question.query == Query::occluded ? "occluded" : "closest"),
+                  {},
+                  data.rays[complaint.ray]};
+  const Ray& ray = failure.ray;
+  if (Status status = use_simd_target(question.simd_target.c_str()); !status) failure.text += status.message();
+  const auto wrong = [&](const Triangles& triangles) { return is_wrong(triangles, ray, question); };
+  if (wrong(data.triangles)) {
+    failure.triangles = fewest(data.triangles, wrong);
+    const Answers answers = ask(failure.triangles, ray, question);
+    failure.text += fmt::format(": answered {}, the truth is {}", answers.given, answers.truth);
+    failure.text += triangles_text(failure.triangles);
   } else {
-    text += fmt::format(": wrong only among the rays beside it (ray {})", complaint.ray);
+    failure.text += fmt::format(": wrong only among the rays beside it (ray {})", complaint.ray);
   }
-  text += fmt::format("\n  ray {{{}, {:a}f, {}, {:a}f}}", vector_text(ray.origin), ray.tmin, vector_text(ray.direction),
-                      ray.tmax);
-  if (Status status = use_simd_target(nullptr); !status) text += status.message();
-  return text;
+  failure.text += fmt::format("\n  ray {{{}, {:a}f, {}, {:a}f}}", vector_text(ray.origin), ray.tmin,
+                              vector_text(ray.direction), ray.tmax);
+  if (Status status = use_simd_target(nullptr); !status) failure.text += status.message();
+  return failure;
 }
 
 }  // namespace umbrix::judge

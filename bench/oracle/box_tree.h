@@ -1,38 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
-#include "oracle/exact_hit.h"
-#include "umbrix/ray.h"
+#include "oracle/decide.h"
 
 namespace umbrix::oracle {
 
-/// The answers of BruteForce for millions of rays: boxes over the triangles, halved at the middle, that only spare
-/// tests of triangles which a ray certainly misses. Const calls are thread-safe, and do not depend on the caller's
-/// floating-point mode.
+/// The exact answers of BruteForce for scenes of millions of triangles: a hierarchy of boxes halved by number, walked
+/// in double with bounds on every rounding. Shares no code with the tracer; tests and the bench hold it to BruteForce.
+/// Const calls are thread-safe, and do not depend on the caller's floating-point mode.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Triangle> triangles);
 
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
   bool occluded(const Ray& ray) const;
 
-  /// occluded() for each ray, over all cores.
-  std::vector<std::uint8_t> occluded(const std::vector<Ray>& rays) const;
+  /// The smallest t; among equals the lowest triangle.
+  std::optional<Closest> closest(const Ray& ray) const;
 
  private:
-  /// Children follow each other; a leaf's triangles do.
-  struct Node {
+  struct Box {
     float lower[3], upper[3];
-    std::uint32_t first = 0;  ///< child, or triangle of a leaf
-    std::uint32_t count = 0;  ///< triangles of a leaf; 0: an inner node
+  };
+  // Leaves name a run of order_, inner nodes their second child; the first one follows its parent.
+  struct Node {
+    Box box;
+    std::uint32_t first;
+    std::uint32_t count;  // 0: inner
   };
 
-  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
-  bool may_meet(const Ray& ray, const Node& node) const;
+  void add_node(std::vector<Box>& boxes, std::size_t begin, std::size_t end);
+  bool may_meet(const Ray& ray, const Box& box) const;
+  template <typename Body>
+  void for_each_near(const Ray& ray, const Body& body) const;
 
   std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };
 

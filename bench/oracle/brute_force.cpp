@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three stages. (1) The triangle's bounding sphere against the line, in double. (2) The triangle in double, with bounds
-// (triangle_filter.cpp). (3) Exact numbers for whatever is still open.
+// The triangle's bounding sphere against the line, in double; then double_filter.h, then exact numbers.
 #include "oracle/brute_force.h"
 
 #include <tbb/parallel_for.h>
@@ -9,11 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
-
-#include "oracle/triangle_filter.h"
 
 namespace umbrix::oracle {
+
 BruteForce::BruteForce(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
   const DefaultFloatMode mode;
   for (std::vector<double>& axis : center_) axis.resize(triangles_.size());
@@ -63,50 +60,11 @@ void BruteForce::for_each_near(const Ray& ray, const Body& body) const {
 }
 
 bool BruteForce::occluded(const Ray& ray, const Visible& visible) const {
-  const DefaultFloatMode mode;
-  if (!is_valid(ray)) return false;
-  bool hit = false;
-  std::vector<std::uint32_t> open;
-  for_each_near(ray, [&](std::uint32_t i) {
-    const Verdict verdict = filter(ray, triangles_[i]).verdict;
-    if (verdict == Verdict::miss || (visible && !visible(i))) return true;
-    if (verdict == Verdict::open) open.push_back(i);
-    hit = verdict == Verdict::hit;
-    return !hit;
-  });
-  return hit || std::any_of(open.begin(), open.end(), [&](std::uint32_t i) { return exact_hit(ray, triangles_[i].v); });
+  return decide_occluded(ray, triangles_, visible, [&](const auto& body) { for_each_near(ray, body); });
 }
 
-std::optional<BruteForce::Closest> BruteForce::closest(const Ray& ray, const Visible& visible) const {
-  const DefaultFloatMode mode;
-  if (!is_valid(ray)) return std::nullopt;
-  struct Candidate {
-    std::uint32_t triangle;
-    double t_lower, t_upper;
-  };
-  std::vector<Candidate> candidates;
-  for_each_near(ray, [&](std::uint32_t i) {
-    const Filtered f = filter(ray, triangles_[i]);
-    if (f.verdict != Verdict::miss && (!visible || visible(i))) candidates.push_back({i, f.t_lower, f.t_upper});
-    return true;
-  });
-  // Nearest first, so that most others are certainly farther than the best so far.
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& x, const Candidate& y) { return x.t_lower < y.t_lower; });
-  std::optional<ExactHit> best;
-  Candidate nearest{};
-  for (const Candidate& candidate : candidates) {
-    if (best && candidate.t_lower > nearest.t_upper) break;
-    std::optional<ExactHit> hit = exact_intersection(ray, triangles_[candidate.triangle].v);
-    if (!hit) continue;
-    const int order = best ? compare_t(*hit, *best) : -1;
-    if (order < 0 || (order == 0 && candidate.triangle < nearest.triangle)) {
-      best = std::move(hit);
-      nearest = candidate;
-    }
-  }
-  if (!best) return std::nullopt;
-  return Closest{nearest.triangle, best->t(), best->u(), best->v()};
+std::optional<Closest> BruteForce::closest(const Ray& ray, const Visible& visible) const {
+  return decide_closest(ray, triangles_, visible, [&](const auto& body) { for_each_near(ray, body); });
 }
 
 std::vector<std::uint8_t> BruteForce::occluded(const std::vector<Ray>& rays) const {

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
-#include "oracle/exact_hit.h"
-#include "umbrix/ray.h"
+#include "oracle/decide.h"
 
 namespace umbrix::oracle {
 
@@ -15,14 +13,6 @@ namespace umbrix::oracle {
 /// depend on the caller's floating-point mode.
 class BruteForce {
  public:
-  /// Says whether a triangle is there for a query; asked only for triangles that may be hit. Empty: all are.
-  using Visible = std::function<bool(std::uint32_t)>;
-
-  struct Closest {
-    std::uint32_t triangle;
-    double t, u, v;  ///< correct to a double's last bits
-  };
-
   explicit BruteForce(std::vector<Triangle> triangles);
 
   const std::vector<Triangle>& triangles() const { return triangles_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <new>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,18 @@ class [[nodiscard]] Status {
  public:
   Status() = default;
   Status(StatusCode code, std::string message) : code_(code), message_(std::move(message)) {}
+
+  /// resource_limit with the message or, where there is no memory for it either, with "out of memory".
+  static Status out_of_memory(const char* message) noexcept {
+    Status status;
+    status.code_ = StatusCode::resource_limit;
+    try {
+      status.message_ = message;
+    } catch (const std::bad_alloc&) {
+      status.message_ = "out of memory";  // short enough to be held within the string
+    }
+    return status;
+  }
 
   bool ok() const noexcept { return code_ == StatusCode::ok; }
   explicit operator bool() const noexcept { return ok(); }

@@ -38,4 +38,12 @@ void parallel_for(const Executor* executor, std::size_t count, const std::functi
   if (guarded.first) std::rethrow_exception(guarded.first);
 }
 
+Status parallel_failure(const char* who, const Executor* executor, const std::exception& error) noexcept try {
+  if (executor && executor->parallel_for)
+    return {StatusCode::internal, std::string(who) + ": the executor failed: " + error.what()};
+  return {StatusCode::resource_limit, std::string(who) + ": no threads: " + error.what()};
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("no threads");
+}
+
 }  // namespace umbrix::detail

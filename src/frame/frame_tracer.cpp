@@ -5,8 +5,8 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <string>
 
+#include "core/parallel_for.h"
 #include "frame/frame_kernel.h"
 #include "frame/frame_samples.h"
 #include "frame/tile_memory.h"
@@ -249,9 +249,9 @@ Status FrameTracer::start(const Scene& scene, const FrameOptions& options) {
     impl_ = std::make_unique<Impl>(*view, options);
     return {};
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, "frame tracer: out of memory"};
+    return Status::out_of_memory("frame tracer: out of memory");
   } catch (const std::exception& e) {
-    return {StatusCode::internal, std::string("frame tracer: the executor failed: ") + e.what()};
+    return detail::parallel_failure("frame tracer", options.executor, e);
   }
 }
 
@@ -262,9 +262,9 @@ Status FrameTracer::begin_frame(const FrameView& view) {
     impl_->begin(view);
     return {};
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, "frame tracer: out of memory for the frame's links and indices"};
+    return Status::out_of_memory("frame tracer: out of memory for the frame's links and indices");
   } catch (const std::exception& e) {
-    return {StatusCode::internal, std::string("frame tracer: the executor failed: ") + e.what()};
+    return detail::parallel_failure("frame tracer", impl_->options.executor, e);
   }
 }
 

@@ -50,7 +50,7 @@ class PlaceFinder {
  private:
   /// Cells on both sides of zero are one, and those far outside of the scene too: that costs predictions only.
   std::int32_t cell(float x) const noexcept {
-    return static_cast<std::int32_t>(std::min(std::max(x * inverse_cell_, -0x1p30f), 0x1p30f));
+    return static_cast<std::int32_t>(std::min(std::max(-0x1p30f, x * inverse_cell_), 0x1p30f));  // NaN: the first
   }
 
   FrameOptions options_;

@@ -105,9 +105,9 @@ bool allowed(AccessorUse use, int type, bool normalized, bool quantized) {
 
 }  // namespace
 
-AccessorReader::AccessorReader(const tinygltf::Model& model, std::uint64_t element_limit)
+AccessorReader::AccessorReader(const tinygltf::Model& model, std::uint64_t byte_limit)
     : model_(model),
-      elements_left_(element_limit),
+      bytes_left_(byte_limit),
       zeros_left_(kMostZeros),
       quantized_(std::count(model.extensionsUsed.begin(), model.extensionsUsed.end(), "KHR_mesh_quantization") > 0) {}
 
@@ -150,9 +150,11 @@ AccessorReader::Bytes AccessorReader::locate(int view_number, std::uint64_t offs
   return {data.data() + view.byteOffset + (count > 0 ? offset : 0), static_cast<std::size_t>(stride)};
 }
 
-void AccessorReader::spend(std::uint64_t elements, bool backed, const std::string& label) {
-  if (elements > elements_left_) over_limit("{}: {} elements are more than the limits allow", label, elements);
-  elements_left_ -= elements;
+void AccessorReader::spend(std::uint64_t elements, std::size_t bytes_each, bool backed, const std::string& label) {
+  if (elements > bytes_left_ / bytes_each) {
+    over_limit("{}: {} elements of {} bytes, {} bytes are left of the limit", label, elements, bytes_each, bytes_left_);
+  }
+  bytes_left_ -= elements * bytes_each;
   if (backed) return;
   if (elements > zeros_left_) {
     over_limit("{}: {} elements without a bufferView, the limit is {}", label, elements, kMostZeros);
@@ -178,7 +180,7 @@ std::vector<std::array<float, N>> AccessorReader::decode(int number, AccessorUse
   const bool backed = accessor.bufferView >= 0;
   Bytes bytes;
   if (backed) bytes = locate(accessor.bufferView, accessor.byteOffset, accessor.count, encoding, label);
-  spend(accessor.count, backed, label);
+  spend(accessor.count, sizeof(std::array<float, N>), backed, label);
   std::vector<std::array<float, N>> out(accessor.count, std::array<float, N>{});
   if (backed) {
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -253,7 +255,7 @@ std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t ver
   if (accessor.bufferView < 0 || accessor.sparse.isSparse) bad_input("{}: indices must lie in a bufferView", label);
   const Encoding encoding{accessor.componentType, component_bytes(accessor.componentType, label), 1, false};
   const Bytes bytes = locate(accessor.bufferView, accessor.byteOffset, accessor.count, encoding, label);
-  spend(accessor.count, true, label);
+  spend(accessor.count, sizeof(std::uint32_t), true, label);
   std::vector<std::uint32_t> out(accessor.count);
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = unsigned_component(bytes.data + i * bytes.stride, encoding.component_bytes);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "io/tinygltf.h"
 
 namespace umbrix::io::detail {
 
@@ -19,8 +19,8 @@ enum class AccessorUse { position, normal, texcoord, key, rotation };
 /// asked for. Throws LoadError that names the accessor.
 class AccessorReader {
  public:
-  /// `element_limit`: how many elements may be decoded in all.
-  AccessorReader(const tinygltf::Model& model, std::uint64_t element_limit);
+  /// `byte_limit`: how much may be decoded in all; an accessor that is asked for again counts again.
+  AccessorReader(const tinygltf::Model& model, std::uint64_t byte_limit);
 
   /// How many elements an accessor has, by its own word.
   std::uint64_t count(int accessor) const;
@@ -42,7 +42,7 @@ class AccessorReader {
   const tinygltf::Accessor& accessor_at(int accessor) const;
   Bytes locate(int view, std::uint64_t offset, std::uint64_t count, const Encoding& encoding,
                const std::string& label) const;
-  void spend(std::uint64_t elements, bool backed, const std::string& label);
+  void spend(std::uint64_t elements, std::size_t bytes_each, bool backed, const std::string& label);
   template <std::size_t N>
   std::vector<std::array<float, N>> decode(int accessor, AccessorUse use, int type);
   template <std::size_t N>
@@ -50,7 +50,7 @@ class AccessorReader {
                     std::vector<std::array<float, N>>& out) const;
 
   const tinygltf::Model& model_;
-  std::uint64_t elements_left_;
+  std::uint64_t bytes_left_;
   std::uint64_t zeros_left_;
   bool quantized_;
 };

@@ -17,7 +17,7 @@ Status camera_at(const Camera& camera, const Moment& moment, Camera& out) try {
 } catch (const detail::LoadError& e) {
   return {e.code, e.what};
 } catch (const std::bad_alloc&) {
-  return {StatusCode::resource_limit, "not enough memory"};
+  return Status::out_of_memory("not enough memory");
 }
 
 std::array<double, 2> motion_span(const Camera& camera) {

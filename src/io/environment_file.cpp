@@ -3,14 +3,13 @@
 // screen.
 #include "io/environment_file.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
 #include <vector>
 
+#include "io/image_input.h"
 #include "io/load_error.h"
 
 namespace umbrix::io::detail {
@@ -58,8 +57,7 @@ Float3 radiance_of(const float* pixel, const std::array<int, 3>& channels, std::
 }  // namespace
 
 EnvironmentMap read_environment(const std::string& path, std::uint64_t most_pixels) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) bad_input("{}", one_line(OIIO::geterror()));
+  const auto input = open_image(path);
   const OIIO::ImageSpec spec = input->spec();
   check_shape(*input, spec, most_pixels);
   const std::array<int, 3> channels = color_channels(spec);

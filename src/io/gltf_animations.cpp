@@ -26,7 +26,7 @@ struct MovingNode {
 namespace {
 
 // All keys of a file that are read: days of a camera with a key for each frame, and no more than a small file costs.
-constexpr std::uint64_t kMostKeys = 1u << 22;
+constexpr std::uint64_t kMostKeyBytes = 1u << 26;
 // Cameras below each other share nodes that move, but each lists its way; a small file could list much.
 constexpr std::size_t kMostPathNodes = 1u << 20;
 
@@ -149,7 +149,10 @@ void normalize_rotations(KeyTrack<glm::dquat>& track, const std::string& label) 
 }  // namespace
 
 CameraAnimations::CameraAnimations(Conversion& conversion, const std::vector<int>& parent)
-    : c_(conversion), parent_(parent), reader_(conversion.model, kMostKeys), cargo_(conversion.model.nodes.size(), 0) {
+    : c_(conversion),
+      parent_(parent),
+      reader_(conversion.model, kMostKeyBytes),
+      cargo_(conversion.model.nodes.size(), 0) {
   std::size_t number = 0;
   for (const tinygltf::Animation& animation : c_.model.animations) {
     for (const tinygltf::AnimationChannel& channel : animation.channels) {

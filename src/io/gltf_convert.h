@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/tinygltf.h"
 #include "umbrix/io/scene_file.h"
 
 /// The steps from tinygltf's model to a SceneFile, in the order in which load_scene takes them. All throw LoadError.

@@ -64,13 +64,23 @@ GltfDocument read_gltf_document(const std::string& path, const LoadLimits& limit
   return document;
 }
 
-nlohmann::json parse_json(std::string_view text) {
-  const auto bound_depth = [](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+nlohmann::json parse_json(std::string_view text, const LoadLimits& limits) {
+  using Event = nlohmann::json::parse_event_t;
+  if (text.size() > limits.json_bytes) {
+    over_limit("the JSON has {} bytes, the limit is {}; keep large buffers in .bin files or a .glb", text.size(),
+               limits.json_bytes);
+  }
+  std::uint64_t values = 0;
+  const auto keep_bounds = [&](int depth, Event event, nlohmann::json&) {
     if (depth > kDeepestJson) bad_input("the JSON is nested more than {} deep", kDeepestJson);
+    const bool begins = event == Event::object_start || event == Event::array_start || event == Event::value;
+    if (begins && ++values > limits.json_values) {
+      over_limit("the JSON has more than {} values, which is the limit", limits.json_values);
+    }
     return true;
   };
   try {
-    return nlohmann::json::parse(text.begin(), text.end(), bound_depth);
+    return nlohmann::json::parse(text.begin(), text.end(), keep_bounds);
   } catch (const nlohmann::json::exception& e) {
     const std::string_view what = e.what();
     // "[json.exception.parse_error.101] parse error at ..."

@@ -70,6 +70,7 @@ constexpr Rule kBodyRules[] = {
     {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number},
     {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
     {"materials[].emissiveFactor", Kind::numbers, nullptr, 3},
+    {"materials[].emissiveTexture.index", Kind::index, "textures", 0, true},
     {"materials[].alphaMode", Kind::string},
     {"materials[].alphaCutoff", Kind::number},
     {"materials[].doubleSided", Kind::boolean},
@@ -270,16 +271,32 @@ void check_buffer_views(const json& root) {
   }
 }
 
+// Before tinygltf makes objects of the elements, which take up to a kilobyte each where the text takes three bytes.
+void check_list_lengths(const json& root, const LoadLimits& limits) {
+  const auto check = [](const char* path, std::uint64_t size, std::uint64_t limit) {
+    if (size > limit) over_limit("{} {}, the limit is {}", size, path, limit);
+  };
+  for (const auto& member : root.items()) {
+    const std::string& name = member.key();
+    if (name != "nodes" && member.value().is_array()) {
+      check(printable(name, 64).c_str(), member.value().size(), limits.list_elements);
+    }
+  }
+  check("nodes", array_size(root, "nodes"), limits.nodes);
+  check("lights", array_size(root, kLights), limits.list_elements);
+}
+
 }  // namespace
 
 bool is_supported_extension(std::string_view name) {
   return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
 }
 
-void check_gltf_json(const json& root) {
+void check_gltf_json(const json& root, const LoadLimits& limits) {
   for (const Rule& rule : kHeadRules) RuleCheck(root, rule);
   check_version(root.at("asset"));
   check_required_extensions(root);
+  check_list_lengths(root, limits);
   for (const Rule& rule : kBodyRules) RuleCheck(root, rule);
   check_buffer_views(root);
 }

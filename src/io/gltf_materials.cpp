@@ -66,7 +66,11 @@ Material convert_material(const tinygltf::Material& in, const std::string& label
 void convert_materials(Conversion& conversion) {
   std::size_t number = 0;
   for (const tinygltf::Material& material : conversion.model.materials) {
-    conversion.scene.materials.push_back(convert_material(material, label_of("materials", number, material.name)));
+    const std::string label = label_of("materials", number, material.name);
+    conversion.scene.materials.push_back(convert_material(material, label));
+    if (material.emissiveTexture.index >= 0 && conversion.scene.materials.back().emission != Float3{0, 0, 0}) {
+      conversion.ignored.add("emissive textures (the whole surface shines with the factor)", label);
+    }
     ++number;
   }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Primitives to triangle lists (glTF 2.0, section 3.7.2).
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -73,6 +75,14 @@ int attribute(const tinygltf::Primitive& primitive, const char* name, const Acce
   return found->second;
 }
 
+// What a small file can ask for by naming one accessor in many primitives has to end before the machine's memory does.
+std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
+  if (limits.decoded_bytes > 0) return limits.decoded_bytes;
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page_bytes);
+}
+
 void note_ignored(const tinygltf::Primitive& primitive, const std::string& label, Remarks& ignored) {
   if (!primitive.targets.empty()) ignored.add("morph targets", label);
   if (primitive.attributes.count("COLOR_0") > 0) ignored.add("vertex colours", label);
@@ -82,8 +92,7 @@ class MeshConverter {
  public:
   explicit MeshConverter(Conversion& conversion)
       : conversion_(conversion),
-        // Vertices may be decoded more often than they are used; see drop_unused_vertices.
-        reader_(conversion.model, saturated_times_8(conversion.limits.triangles)),
+        reader_(conversion.model, decoded_byte_limit(conversion.limits)),
         triangles_left_(conversion.limits.triangles) {}
 
   void convert(const tinygltf::Primitive& primitive, const std::string& name, const std::string& label) {
@@ -141,10 +150,6 @@ class MeshConverter {
   }
 
  private:
-  static std::uint64_t saturated_times_8(std::uint64_t n) {
-    return n > std::numeric_limits<std::uint64_t>::max() / 8 ? std::numeric_limits<std::uint64_t>::max() : n * 8;
-  }
-
   Conversion& conversion_;
   AccessorReader reader_;
   std::uint64_t triangles_left_;

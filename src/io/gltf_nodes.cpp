@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The node hierarchy (glTF 2.0, section 3.5), walked with a stack of our own: files may nest deeper than the machine's.
 
+#include <limits>
+
 #include "io/gltf_animations.h"
 #include "io/gltf_convert.h"
 #include "io/load_error.h"
@@ -22,9 +24,6 @@ class NodeWalk {
       : c_(conversion), model_(conversion.model), animations_(conversion, parent_) {}
 
   void run() {
-    if (model_.nodes.size() > c_.limits.nodes) {
-      over_limit("{} nodes, the limit is {}", model_.nodes.size(), c_.limits.nodes);
-    }
     find_parents();
     refuse_cycles();
     const std::vector<int> roots = scene_roots();
@@ -117,7 +116,9 @@ class NodeWalk {
     const tinygltf::Node& node = model_.nodes[number];
     animations_.mesh_at(number);
     const auto mesh = static_cast<std::size_t>(node.mesh);
-    const std::uint64_t most = c_.limits.nodes * kInstancesPerNodeLimit;
+    constexpr std::uint64_t kLargest = std::numeric_limits<std::uint64_t>::max();
+    const std::uint64_t nodes = c_.limits.nodes;
+    const std::uint64_t most = nodes > kLargest / kInstancesPerNodeLimit ? kLargest : nodes * kInstancesPerNodeLimit;
     for (std::uint32_t m = c_.first_mesh[mesh]; m < c_.first_mesh[mesh + 1]; ++m) {
       triangles_ += c_.scene.meshes[m].triangles.size();
       if (triangles_ > c_.limits.triangles) {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <string>
 
 #include "io/gltf_document.h"
-
+#include "io/tinygltf.h"
 namespace umbrix::io::detail {
 
 /// Parses a document that check_gltf_json passed, with tinygltf. `root` is the document's JSON. Buffers come from the

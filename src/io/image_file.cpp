@@ -2,16 +2,19 @@
 #include "umbrix/io/image_file.h"
 
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
 #include "io/atomic_file.h"
 #include "io/image_formats.h"
-#include "io/input_file.h"
+#include "io/image_input.h"
 #include "io/load_error.h"
 
 namespace umbrix::io {
@@ -19,15 +22,12 @@ namespace {
 
 struct Format {
   const char* extension;
-  Status (*write)(const std::string& path, const Image& image, const WriteOptions& options);
+  Status (*write)(detail::AtomicFile& file, const Image& image, const WriteOptions& options);
 };
 
 #define UMBRIX_FORMAT_ROW(name, extension) {extension, &detail::write_##name},
 constexpr Format kFormats[] = {UMBRIX_IMAGE_FORMATS(UMBRIX_FORMAT_ROW)};
 #undef UMBRIX_FORMAT_ROW
-
-// The most pixels that read_image takes, before memory is asked for.
-constexpr std::uint64_t kMaxFloats = 1ull << 31;
 
 Status failed(const std::string& path, const std::string& reason) {
   return {StatusCode::output_failed, detail::printable(path) + ": " + detail::one_line(reason)};
@@ -68,32 +68,40 @@ Status guarded(const std::string& path, Step step) {
   try {
     return step();
   } catch (const std::bad_alloc&) {
-    return {StatusCode::resource_limit, detail::printable(path) + ": not enough memory"};
+    return detail::out_of_memory(path);
   } catch (const std::exception& e) {
     return failed(path, e.what());
   }
 }
 
-Status read_checked(const std::string& path, Image& out) {
-  if (Status status = detail::check_readable(path); !status) return status;
-  const auto bad = [&](const std::string& reason) {
-    return Status(StatusCode::bad_input, detail::printable(path) + ": " + detail::one_line(reason));
-  };
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) return bad(OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) return bad("the image is empty");
-  const auto floats = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
-  if (floats > kMaxFloats / static_cast<std::uint64_t>(spec.nchannels)) {
-    return {StatusCode::resource_limit, detail::printable(path) + ": the image is too large"};
+std::string reason_of(int error) { return std::generic_category().message(error); }
+
+Status write_standard_output(const std::string& text) {
+  // What others printed before comes first.
+  const char* next = text.data();
+  int error = std::fflush(stdout) == 0 ? 0 : errno;
+  for (std::size_t left = text.size(); left > 0 && error == 0;) {
+    const ssize_t done = ::write(STDOUT_FILENO, next, left);
+    if (done < 0 && errno != EINTR) error = errno;
+    if (done <= 0) continue;
+    next += done;
+    left -= static_cast<std::size_t>(done);
   }
+  if (error == EPIPE) return {StatusCode::cancelled, "standard output: nobody reads it any more"};
+  return error == 0 ? Status() : failed("standard output", reason_of(error));
+}
+
+void read_checked(const std::string& path, Image& out) {
+  const auto input = detail::open_image(path);
+  const OIIO::ImageSpec& spec = input->spec();
   Image image;
   image.width = spec.width;
   image.height = spec.height;
   image.channels = spec.channelnames;
-  image.pixels.resize(floats * static_cast<std::uint64_t>(spec.nchannels));
+  image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                      static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
-    return bad(input->geterror());
+    detail::bad_input("{}", detail::one_line(input->geterror()));
   }
   for (const auto& attribute : spec.extra_attribs) {
     if (attribute.type() == OIIO::TypeDesc::TypeMatrix) {
@@ -104,7 +112,6 @@ Status read_checked(const std::string& path, Image& out) {
     }
   }
   out = std::move(image);
-  return {};
 }
 
 }  // namespace
@@ -126,7 +133,7 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
     }
     detail::AtomicFile file;
     if (Status status = file.begin(path, options.overwrite); !status) return status;
-    if (Status status = format->write(file.temporary(), image, options); !status) {
+    if (Status status = format->write(file, image, options); !status) {
       return {status.code(), detail::printable(path) + ": " + detail::one_line(status.message())};
     }
     return file.commit();
@@ -135,22 +142,27 @@ Status write_image(const std::string& path, const Image& image, const WriteOptio
 
 Status read_image(const std::string& path, Image& out) {
   out = {};
-  return guarded(path, [&] { return read_checked(path, out); });
+  const auto refused = [&](StatusCode code, const std::string& what) {
+    return Status(code, detail::printable(path) + ": " + what);
+  };
+  try {
+    read_checked(path, out);
+    return {};
+  } catch (const detail::LoadError& e) {
+    return refused(e.code, e.what);
+  } catch (const std::bad_alloc&) {
+    return refused(StatusCode::resource_limit, "not enough memory");
+  } catch (const std::exception& e) {
+    return refused(StatusCode::bad_input, detail::one_line(e.what()));
+  }
 }
 
 Status write_text(const std::string& path, const std::string& text, bool overwrite) {
   return guarded(path, [&]() -> Status {
-    if (path == "-") {
-      const bool done = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-      return done ? Status() : failed("standard output", "cannot be written");
-    }
+    if (path == "-") return write_standard_output(text);
     detail::AtomicFile file;
     if (Status status = file.begin(path, overwrite); !status) return status;
-    std::FILE* stream = std::fopen(file.temporary().c_str(), "wb");
-    if (!stream) return failed(path, "cannot be created");
-    const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-    const bool closed = std::fclose(stream) == 0;
-    if (!written || !closed) return failed(path, "cannot be written; is the disk full?");
+    if (const int error = file.write(text.data(), text.size(), 0)) return failed(path, reason_of(error));
     return file.commit();
   });
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
+#include "io/atomic_file.h"
 #include "umbrix/io/image_file.h"
 
-/// The output formats, one line each: name (of the function write_<name> too) and file extension. A writer makes the
-/// file `path` (whose extension says nothing) from an image whose fields agree with each other.
+/// The output formats, one line each: name (of the function write_<name> too) and file extension. A writer fills
+/// a file that was begun from an image whose fields agree with each other.
 #define UMBRIX_IMAGE_FORMATS(FORMAT) \
   FORMAT(exr, ".exr")                \
   FORMAT(png, ".png")
@@ -14,7 +13,7 @@
 namespace umbrix::io::detail {
 
 #define UMBRIX_DECLARE_WRITER(name, extension) \
-  Status write_##name(const std::string& path, const Image& image, const WriteOptions& options);
+  Status write_##name(AtomicFile& file, const Image& image, const WriteOptions& options);
 UMBRIX_IMAGE_FORMATS(UMBRIX_DECLARE_WRITER)
 #undef UMBRIX_DECLARE_WRITER
 

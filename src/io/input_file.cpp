@@ -28,7 +28,9 @@ struct File {
 
 // Non-blocking, so that a pipe nobody writes to cannot hang the program.
 void open_regular(const std::string& path, File& file) {
-  file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  do {
+    file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  } while (file.number < 0 && errno == EINTR);
   struct stat info {};
   if (file.number < 0 || ::fstat(file.number, &info) != 0) {
     bad_input("cannot be read: {}", std::generic_category().message(errno));
@@ -36,6 +38,18 @@ void open_regular(const std::string& path, File& file) {
   if (S_ISDIR(info.st_mode)) bad_input("is a folder, not a file");
   if (!S_ISREG(info.st_mode)) bad_input("is not a regular file");
   file.bytes = static_cast<std::uint64_t>(info.st_size);
+}
+
+std::vector<unsigned char> read_bytes(const File& file, std::uint64_t count) {
+  std::vector<unsigned char> bytes(count);
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got = ::read(file.number, bytes.data() + done, bytes.size() - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) bad_input("cannot be read: {}", std::generic_category().message(errno));
+    if (got == 0) bad_input("became shorter while it was read");
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
 }
 
 // Is `path`, with links followed, below `folder`?
@@ -79,15 +93,15 @@ std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limi
   open_regular(path, file);
   if (file.bytes == 0) bad_input("is empty");
   if (file.bytes > limit) over_limit("has {} bytes, the limit is {}", file.bytes, limit);
-  std::vector<unsigned char> bytes(file.bytes);
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t got = ::read(file.number, bytes.data() + done, bytes.size() - done);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) bad_input("cannot be read: {}", std::generic_category().message(errno));
-    if (got == 0) bad_input("became shorter while it was read");
-    done += static_cast<std::size_t>(got);
-  }
-  return bytes;
+  return read_bytes(file, file.bytes);
+}
+
+std::vector<unsigned char> read_start(const std::string& path, std::uint64_t most, std::uint64_t& file_bytes) {
+  File file;
+  open_regular(path, file);
+  if (file.bytes == 0) bad_input("is empty");
+  file_bytes = file.bytes;
+  return read_bytes(file, std::min(file.bytes, most));
 }
 
 }  // namespace umbrix::io::detail

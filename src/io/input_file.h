@@ -16,6 +16,9 @@ Status check_readable(const std::string& path);
 /// grow. Throws LoadError without the file's name.
 std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limit);
 
+/// The first bytes of a regular file, at most `most`, and how many it has. Throws as read_file does.
+std::vector<unsigned char> read_start(const std::string& path, std::uint64_t most, std::uint64_t& file_bytes);
+
 /// The path of a file that another one, `from`, names relative to its own folder. With `stay_inside` it must lie there,
 /// links followed, so that a file from elsewhere cannot have others read. `label` and `kind` ("scene file") are for the
 /// message. Throws LoadError.

@@ -28,8 +28,12 @@ template <class... Args>
   throw LoadError{StatusCode::resource_limit, fmt::format(format, std::forward<Args>(args)...)};
 }
 
-/// A name from a file or user, fit for a terminal: control characters as \xNN, and at most `limit` bytes long.
+/// A name from a file or user, fit for a terminal: control characters, and bytes that are not UTF-8, as \xNN; about
+/// `limit` bytes long at most.
 std::string printable(std::string_view text, std::size_t limit = 256);
+
+/// resource_limit for a file, if there is memory to name it. Does not throw.
+Status out_of_memory(const std::string& path) noexcept;
 
 /// The first line of a library's message, made printable and cut, so that data in it cannot flood the terminal.
 std::string one_line(std::string_view text);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tiny_gltf.h>
-
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 
+#include "io/tinygltf.h"
 #include "umbrix/io/scene_file.h"
 
 namespace umbrix::io::detail {

@@ -52,8 +52,8 @@ void note_unread(Conversion& c) {
 void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
   const tinygltf::Model model = [&] {
     const GltfDocument document = read_gltf_document(path, limits);
-    const nlohmann::json root = parse_json(document.json);
-    check_gltf_json(root);
+    const nlohmann::json root = parse_json(document.json, limits);
+    check_gltf_json(root, limits);
     return parse_gltf(path, document, root, limits);
   }();
   scene.path = path;
@@ -93,7 +93,8 @@ Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& lim
   } catch (const detail::LoadError& e) {
     return failed(e.code, e.what);
   } catch (const std::bad_alloc&) {
-    return failed(StatusCode::resource_limit, "not enough memory");
+    out = {};
+    return detail::out_of_memory(path);
   } catch (const std::length_error&) {
     return failed(StatusCode::resource_limit, "not enough memory");
   } catch (const std::exception& e) {

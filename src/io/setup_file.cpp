@@ -61,7 +61,8 @@ Status load_setup(const std::string& path, const SceneFile& scene, Setup& out, c
   } catch (const detail::LoadError& e) {
     return failed(e.code, e.what);
   } catch (const std::bad_alloc&) {
-    return failed(StatusCode::resource_limit, "not enough memory");
+    out = {};
+    return detail::out_of_memory(path);
   } catch (const std::exception& e) {
     return failed(StatusCode::bad_input, detail::one_line(e.what()));
   }

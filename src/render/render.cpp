@@ -221,6 +221,13 @@ Status check_options(const RenderOptions& options) {
   return status.ok() ? find_aovs(options, aovs) : status;
 }
 
+std::uint64_t image_bytes(const RenderOptions& options) {
+  PixelRect window;
+  std::vector<const Aov*> aovs;
+  if (!find_window(options, window) || !find_aovs(options, aovs)) return 0;
+  return window.size() * channel_names(aovs).size() * sizeof(float);
+}
+
 Status render(const World& world, const View& view, const RenderOptions& options, io::Image& image,
               RenderStats& stats) try {
   PixelRect window;
@@ -250,8 +257,10 @@ Status render(const World& world, const View& view, const RenderOptions& options
   stats.seconds = seconds_since(start);
   return frame.cancelled() ? Status(StatusCode::cancelled, "rendering was cancelled") : Status();
 } catch (const std::bad_alloc&) {
-  return {StatusCode::resource_limit,
-          fmt::format("no memory for lights and an image of {}x{}", options.width, options.height)};
+  if (options.tracer) (void)options.tracer->end_frame();  // for a next try
+  char text[96] = {};
+  fmt::format_to_n(text, sizeof text - 1, "no memory for lights and an image of {}x{}", options.width, options.height);
+  return Status::out_of_memory(text);
 }
 
 }  // namespace umbrix::render

@@ -64,6 +64,9 @@ std::vector<AovInfo> known_aovs();
 /// samples beyond their limits; or with resource_limit for more than 2^28 pixels.
 Status check_options(const RenderOptions& options);
 
+/// The memory that the image's pixels take; 0 for options that check_options refuses.
+std::uint64_t image_bytes(const RenderOptions& options);
+
 /// Renders direct light into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on
 /// oneTBB's threads (see with_threads). The pixels depend on the world, the view and the options' image, crop, both
 /// kinds of samples and seed alone. Fails as check_options; cancelled leaves `image` unfinished.

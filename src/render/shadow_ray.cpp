@@ -25,7 +25,7 @@ Vec3 before_light(const Vec3& origin, const Vec3& way, const Arrival& arrival) {
 }  // namespace
 
 Receiver receiver_at(const Surface& surface) {
-  return {load(surface.point), load(surface.origin), surface.shading_normal};
+  return {surface.point, surface.origin, surface.shading_normal};
 }
 
 Ray shadow_ray(const Receiver& receiver, const Arrival& arrival) {

@@ -11,13 +11,13 @@ namespace umbrix::render {
 /// surface emits, it emits in front, and behind only if it is double-sided.
 struct Surface {
   const io::Material* material = nullptr;
-  float point[3] = {};        ///< world space, rounded
-  float point_error[3] = {};  ///< bounds how far `point` is from the triangle's plane, per axis
-  float origin[3] = {};       ///< where shadow rays start: `point`, moved off the surface by its rounding error
-  Vec3 geometric_normal{0};   ///< unit
-  Vec3 shading_normal{0};     ///< unit; interpolated if the mesh has normals
-  Vec3 to_viewer{0};          ///< unit
-  bool emits = false;         ///< towards the viewer
+  Vec3 point{0};             ///< world space
+  Vec3 point_error{0};       ///< bounds how far `point` is from the triangle's plane, per axis
+  Vec3 origin{0};            ///< where shadow rays start, in floats: `point`, moved off the surface by its rounding error
+  Vec3 geometric_normal{0};  ///< unit
+  Vec3 shading_normal{0};    ///< unit; interpolated if the mesh has normals
+  Vec3 to_viewer{0};         ///< unit
+  bool emits = false;        ///< towards the viewer
   Primitive primitive;
 };
 

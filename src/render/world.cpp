@@ -77,7 +77,7 @@ Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vect
   }
   return {};
 } catch (const std::bad_alloc&) {
-  return {StatusCode::resource_limit, fmt::format("{}: no memory for the instanced vertices", file.path)};
+  return Status::out_of_memory("no memory for the placed vertices");
 }
 
 Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out) {

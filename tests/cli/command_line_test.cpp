@@ -48,6 +48,7 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
       {{"--spp", "1e9"}, "from 1 to 65536"},
       {{"--spp", "99999999999999999999999"}, "from 1 to 65536"},
       {{"--spp", ""}, "--spp"},
+      {{"--light-samples", "0"}, "from 1 to 4096"},
       {{"--exposure", "nan"}, "from -64 to 64"},
       {{"--threads", "-3"}, "from 0 to 1024"},
       {{"--size", "16"}, "WxH"},

@@ -33,6 +33,20 @@ TEST_F(Info, JsonTellsWhatIsInTheFile) {
   EXPECT_TRUE(info["ignored"].empty());
 }
 
+TEST_F(Info, EmissiveMeshesAreTold) {
+  auto scene = nlohmann::json::parse(read("scene.gltf"));
+  scene["materials"] = {{{"emissiveFactor", {1, 0.5, 0.25}}, {"doubleSided", true}}};
+  scene["meshes"][0]["primitives"][0]["material"] = 0;
+  write("lamp.gltf", scene.dump());
+  const Outcome outcome = run({"info", path("lamp.gltf"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto lamps = nlohmann::json::parse(outcome.out)["emissive_meshes"];
+  ASSERT_EQ(lamps.size(), 1u);
+  EXPECT_EQ(lamps[0]["triangles"], 4);
+  EXPECT_EQ(lamps[0]["radiance"], nlohmann::json({1, 0.5, 0.25}));
+  EXPECT_EQ(lamps[0]["double_sided"], true);
+}
+
 TEST_F(Info, TableTellsTheSameToPeople) {
   const Outcome outcome = run({"info", path("scene.gltf")});
   ASSERT_EQ(outcome.code, 0);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "program.h"
 #include "umbrix/io/image_file.h"
@@ -105,6 +106,33 @@ TEST_F(Output, SetupGivesCameraAndLights) {
             "lights": [[0, 0, 3]]})");
   ASSERT_EQ(render("out.exr", {"--setup", path("setup.json"), "--aov", "depth", "--float"}).code, 0);
   EXPECT_EQ(pixel(image("out.exr"), 24, 16, "depth.Z"), 8);
+}
+
+TEST_F(Output, EnvironmentLightsAndFillsTheBackground) {
+  write("setup.json", R"({"lights": [{"type": "environment", "radiance": [0.5, 0.25, 1]}]})");
+  ASSERT_EQ(render("out.exr", {"--setup", path("setup.json"), "--float", "--light-samples", "4"}).code, 0);
+  const io::Image sky = image("out.exr");
+  EXPECT_EQ(pixel(sky, 0, 0, "B"), 1);
+  EXPECT_EQ(pixel(sky, 0, 0, "A"), 1);
+  EXPECT_GT(pixel(sky, 16, 16, "B"), 0.2f);
+  EXPECT_LT(pixel(sky, 16, 16, "B"), 1.0f);
+  EXPECT_NEAR(pixel(sky, 16, 16, "R"), 0.5f * pixel(sky, 16, 16, "B"), 1e-5f);
+}
+
+TEST_F(Output, EmissiveMeshesLightTheSceneUnlessToldOtherwise) {
+  // A small lamp above the squares that shines down on them, beside the file's own light.
+  auto scene = nlohmann::json::parse(read("scene.gltf"));
+  scene["materials"] = {{{"emissiveFactor", {1, 1, 1}}}};
+  nlohmann::json lamp = scene["meshes"][0];
+  lamp["primitives"][0]["material"] = 0;
+  scene["meshes"].push_back(lamp);
+  scene["nodes"].push_back(
+      {{"mesh", 1}, {"translation", {0, 0, 3}}, {"rotation", {1, 0, 0, 0}}, {"scale", {0.1, 0.1, 0.1}}});
+  scene["scenes"][0]["nodes"].push_back(scene["nodes"].size() - 1);
+  write("scene.gltf", scene.dump());
+  ASSERT_EQ(render("lit.exr", {"--float"}).code, 0);
+  ASSERT_EQ(render("unlit.exr", {"--float", "--no-mesh-lights"}).code, 0);
+  EXPECT_GT(pixel(image("lit.exr"), 16, 16, "R"), pixel(image("unlit.exr"), 16, 16, "R"));
 }
 
 TEST_F(Output, ExistingFileIsKeptUnlessToldOtherwise) {

@@ -3,10 +3,12 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -64,29 +66,49 @@ void ProgramTest::SetUp() {
 
 void ProgramTest::TearDown() { std::filesystem::remove_all(folder_); }
 
-pid_t ProgramTest::start(const std::vector<std::string>& arguments) {
+std::vector<std::string> ProgramTest::program(const std::vector<std::string>& arguments) {
   std::vector<std::string> words = {UMBRIX_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
+}
+
+pid_t ProgramTest::start(const std::vector<std::string>& arguments) { return start_command(program(arguments)); }
+
+pid_t ProgramTest::start_command(std::vector<std::string> words, int standard_output) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+
+  // A shell may have left signals ignored for what it runs in the background.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t all;
+  sigfillset(&all);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
 
   // What it says goes beside the folder, so that the folder holds its outputs alone.
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   const std::string out = folder_.string() + ".out", err = folder_.string() + ".err";
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
+  if (standard_output >= 0)
+    posix_spawn_file_actions_adddup2(&actions, standard_output, STDOUT_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600);
   pid_t process = -1;
-  EXPECT_EQ(posix_spawn(&process, UMBRIX_PROGRAM, &actions, nullptr, argv.data(), environ), 0);
+  EXPECT_EQ(posix_spawn(&process, argv[0], &actions, &attributes, argv.data(), environ), 0);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   return process;
 }
 
 Outcome ProgramTest::wait(pid_t process) {
   int status = 0;
-  EXPECT_EQ(waitpid(process, &status, 0), process);
+  rusage usage{};
+  EXPECT_EQ(wait4(process, &status, 0, &usage), process);
   Outcome outcome;
+  outcome.peak_megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
   outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   for (const auto& [suffix, text] : {std::pair(".out", &outcome.out), std::pair(".err", &outcome.err)}) {
     *text = read_file(folder_.string() + suffix);

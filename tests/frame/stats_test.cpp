@@ -58,7 +58,7 @@ void expect_sums(const FrameStats& stats, const std::vector<std::uint8_t>& out, 
 }
 
 TEST(FrameStatistics, SumsAddUp) {
-  for (const char* const name : {"random_segments", "invalid_rays", "far_origins", "closed_interior"}) {
+  for (const char* const name : {"random_segments", "invalid_rays", "far_origins", "inside_star"}) {
     constexpr std::uint64_t kSeed = 51;
     SCOPED_TRACE(testing::Message() << name << " seed " << kSeed);
     const cases::CaseData data = cases::find_case(name)->make(kSeed, test_rays(600));

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "built_scenes.h"
+#include "render/vec.h"
 
 namespace umbrix::render {
 namespace {

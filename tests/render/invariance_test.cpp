@@ -10,6 +10,24 @@
 namespace umbrix::render {
 namespace {
 
+/// Lights of all types over the clutter, an emissive sheet among them.
+Clutter lit_clutter() {
+  Clutter made = clutter(5);
+  made.scene.materials.resize(2);
+  made.scene.materials[1].emission = {3, 2, 1};
+  made.scene.meshes.push_back(quad({-1, -1, 1.8f}, {-1, 1, 1.9f}, {0.5f, 1, 2}, {0.5f, -1, 2}));
+  made.scene.meshes.back().material = 1;
+  place(made.scene, 2);
+  io::Light rectangle = point_light({1, 0, 2}, 5), sphere = point_light({-0.5, 1, 2.2}, 8), sky;
+  rectangle.type = io::LightType::rectangle;
+  sphere.type = io::LightType::sphere;
+  sphere.radius = 0.3f;
+  sky.type = io::LightType::environment;
+  made.view.lights.insert(made.view.lights.end(), {rectangle, sphere, sky});
+  for (const io::Light& light : io::emissive_lights(made.scene)) made.view.lights.push_back(light);
+  return made;
+}
+
 class Invariance : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(build_world(clutter_.scene, {}, world_).ok()); }
@@ -34,7 +52,7 @@ class Invariance : public testing::Test {
     return result;
   }
 
-  Clutter clutter_ = clutter(5);
+  Clutter clutter_ = lit_clutter();
   World world_;
 };
 
@@ -60,24 +78,61 @@ TEST_F(Invariance, Threads) {
 }
 
 TEST_F(Invariance, Kernels) {
-  const io::Image usual = image(options());
+  RenderOptions once = options();
+  once.samples = 1;
+  const io::Image usual = image(once);
   ASSERT_GE(kernel_count(), 1u);
   for (std::size_t i = 0; i < kernel_count(); ++i) {
     SCOPED_TRACE(kernel_info(i).name);
-    RenderOptions with_kernel = options();
+    RenderOptions with_kernel = once;
     ASSERT_TRUE(find_kernel(kernel_info(i).name, with_kernel.kernel).ok());
     ASSERT_TRUE(world_.scene.prepare(with_kernel.kernel).ok());
     expect_same(usual, image(with_kernel));
   }
 }
 
-TEST_F(Invariance, SimdTargets) {
+TEST_F(Invariance, FrameTracers) {
+  RenderOptions once = options();
+  once.samples = 1;
+  const io::Image usual = image(once);
+  for (const FrameMethod method :
+       {FrameMethod::best, FrameMethod::paper, FrameMethod::indexed, FrameMethod::linked, FrameMethod::beam}) {
+    SCOPED_TRACE(static_cast<int>(method));
+    FrameOptions frame_options;
+    frame_options.method = method;
+    FrameTracer tracer;
+    ASSERT_TRUE(tracer.start(world_.scene, frame_options).ok());
+    RenderOptions traced = once;
+    traced.tracer = &tracer;
+    for (traced.frame = 0; traced.frame < 3; ++traced.frame) expect_same(usual, image(traced));
+  }
+}
+
+TEST_F(Invariance, ChosenLightsAndMoreSamples) {
+  RenderOptions more = options();
+  more.width = 64;
+  more.samples = 2;
+  more.light_samples = 3;
+  for (int i = 0; i < 8; ++i) {
+    io::Light light = clutter_.view.lights[3];
+    light.position[0] -= 0.3 * i;
+    clutter_.view.lights.push_back(light);
+  }
+  const io::Image one = image(more, 1);
+  expect_same(one, image(more, 7));
+  FrameTracer tracer;
+  ASSERT_TRUE(tracer.start(world_.scene).ok());
+  more.tracer = &tracer;
+  for (more.frame = 0; more.frame < 2; ++more.frame) expect_same(one, image(more));
+}
+
+TEST_F(Invariance, SimdTargetsAndThreads) {
   const io::Image best = image(options());
   ASSERT_GE(simd_target_count(), 1u);
   for (std::size_t i = 0; i < simd_target_count(); ++i) {
     SCOPED_TRACE(simd_target_name(i));
     ASSERT_TRUE(use_simd_target(simd_target_name(i)).ok());
-    expect_same(best, image(options()));
+    for (const int threads : {1, 3, 7}) expect_same(best, image(options(), threads));
   }
 }
 

@@ -3,14 +3,20 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "built_scenes.h"
+#include "render/shadow_ray.h"
 
 namespace umbrix::render {
 namespace {
+
+/// Wide enough for products of three differences of floats, whatever their sizes here.
+using Exact =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<600, boost::multiprecision::digit_base_2>>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -73,8 +79,10 @@ TEST(Surface, ErrorBoundReachesThePlaneAndTheOriginIsInFront) {
   std::uniform_real_distribution<float> unit(-1, 1);
   for (int i = 0; i < 2000; ++i) {
     const float scale = std::pow(10.0f, 6 * unit(random));
+    // Some triangles have corners of very different sizes: a large floor seen near the origin.
     const auto vertex = [&]() -> io::Float3 {
-      return {scale * (3 + unit(random)), scale * (-5 + unit(random)), scale * unit(random)};
+      const float far = i % 2 == 0 ? 1 : std::pow(10.0f, 6 + 6 * unit(random));
+      return {scale * far * (3 + unit(random)), scale * far * (-5 + unit(random)), scale * far * unit(random)};
     };
     io::Mesh mesh;
     mesh.positions = {vertex(), vertex(), vertex()};
@@ -92,29 +100,43 @@ TEST(Surface, ErrorBoundReachesThePlaneAndTheOriginIsInFront) {
     const Ray ray = {{0, 0, 100 * scale}, 0, {unit(random), unit(random), -1}, kInfinity};
     const Surface surface = surface_at(world, ray, hit);
 
-    // The signed distance, times the normal's length, in long double: exact enough for floats of like magnitude.
-    const auto above_plane = [&](const float p[3]) {
-      long double a[3], b[3], d[3];
+    // The signed distance, times the normal's length, without rounding.
+    const auto above_plane = [&](const Vec3& p) {
+      Exact a[3], b[3], d[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        a[k] = static_cast<long double>(mesh.positions[1][k]) - mesh.positions[0][k];
-        b[k] = static_cast<long double>(mesh.positions[2][k]) - mesh.positions[0][k];
-        d[k] = static_cast<long double>(p[k]) - mesh.positions[0][k];
+        a[k] = Exact(mesh.positions[1][k]) - mesh.positions[0][k];
+        b[k] = Exact(mesh.positions[2][k]) - mesh.positions[0][k];
+        d[k] = Exact(p[static_cast<int>(k)]) - mesh.positions[0][k];
       }
-      return d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
-             d[2] * (a[0] * b[1] - a[1] * b[0]);
+      return Exact(d[0] * (a[1] * b[2] - a[2] * b[1]) + d[1] * (a[2] * b[0] - a[0] * b[2]) +
+                   d[2] * (a[0] * b[1] - a[1] * b[0]));
     };
     const Vec3 p0 = to_vec3(mesh.positions[0]), p1 = to_vec3(mesh.positions[1]), p2 = to_vec3(mesh.positions[2]);
     const Vec3 cross = glm::cross(p1 - p0, p2 - p0);
-    double reach = 0;
-    for (int axis = 0; axis < 3; ++axis) reach += std::abs(cross[axis]) * double{surface.point_error[axis]};
-    EXPECT_LE(std::abs(static_cast<double>(above_plane(surface.point))), reach);
+    EXPECT_LE(abs(above_plane(surface.point)), Exact(glm::dot(glm::abs(cross), surface.point_error)));
 
-    float normal[3], origin[3];
-    store(surface.geometric_normal, normal);
-    offset_origin(surface.point, surface.point_error, normal, normal, origin);
+    Arrival arrival;
+    arrival.to_light = surface.geometric_normal;
+    const Ray shadow = shadow_ray(receiver_at(surface), arrival);
     const bool upward = glm::dot(cross, surface.geometric_normal) > 0;
-    EXPECT_GT(static_cast<double>(upward ? above_plane(origin) : -above_plane(origin)), 0);
+    const Exact height = above_plane(Vec3(shadow.origin[0], shadow.origin[1], shadow.origin[2]));
+    EXPECT_GT(upward ? height : -height, 0);
   }
+}
+
+TEST(Surface, NeedleWhoseAreaDoublesCannotHoldFacesTheViewer) {
+  // Not degenerate, but in double its edges are parallel.
+  io::Mesh mesh;
+  mesh.positions = {{0x1p-60f, 0, 0}, {1, 1, 0}, {2, 2, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  io::SceneFile scene = scene_of(mesh);
+  place(scene, 0);
+  World world;
+  ASSERT_TRUE(build_world(scene, {}, world).ok());
+  const Surface surface = look(world, {{1, 1, 3}, 0, {0, 0, -1}, kInfinity});
+  expect_near(surface.point, {1, 1, 0});
+  expect_near(surface.geometric_normal, {0, 0, 1});
+  expect_near(surface.shading_normal, {0, 0, 1});
 }
 
 }  // namespace

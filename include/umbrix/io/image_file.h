@@ -40,10 +40,16 @@ UMBRIX_API Status check_output(const std::string& path, const WriteOptions& opti
 /// arguments only. output_failed names the file and the reason.
 UMBRIX_API Status write_image(const std::string& path, const Image& image, const WriteOptions& options);
 
-/// Reads an image back as floats (colour not converted). bad_input names the file.
+/// Reads an OpenEXR, PNG or Radiance HDR image as floats (colour not converted). bad_input, or resource_limit for an
+/// image that is too large, for us or for its file, names the file; `out` is then empty.
 UMBRIX_API Status read_image(const std::string& path, Image& out);
 
-/// Writes text or bytes atomically, for reports. "-" is standard output.
+/// Writes text or bytes atomically, for reports. "-" is standard output: cancelled if it is a pipe that nobody reads
+/// any more (and SIGPIPE is ignored).
 UMBRIX_API Status write_text(const std::string& path, const std::string& text, bool overwrite);
+
+/// Removes the temporaries of all files that are being written, for a program that is about to end: those writes then
+/// fail. Safe in a signal handler, and from any thread.
+UMBRIX_API void remove_temporaries() noexcept;
 
 }  // namespace umbrix::io

@@ -138,10 +138,14 @@ struct SceneFile {
 
 /// Refused above these, before memory is asked for.
 struct LoadLimits {
-  std::uint64_t file_bytes = 4ull << 30;
-  std::uint64_t triangles = 1ull << 29;  ///< over all instances
-  std::uint32_t node_depth = 256;
+  std::uint64_t file_bytes = 4ull << 30;    ///< of the scene file, and of all its buffer files together
+  std::uint64_t json_bytes = 256ull << 20;  ///< a .glb's JSON, or a whole .gltf with what is embedded in it
+  std::uint64_t json_values = 1ull << 24;   ///< numbers, texts, arrays and objects in the JSON
+  std::uint64_t list_elements = 1'000'000;  ///< of accessors, buffer views, meshes, materials, ...: each
   std::uint64_t nodes = 1'000'000;
+  std::uint32_t node_depth = 256;
+  std::uint64_t triangles = 1ull << 29;           ///< over all instances
+  std::uint64_t decoded_bytes = 0;                ///< of all accessors' values; 0: three quarters of the machine's memory
   std::uint64_t environment_pixels = 1ull << 27;  ///< 16384 x 8192
   bool allow_paths_outside = false;               ///< files named by a file, outside its folder
 };

@@ -21,7 +21,7 @@ bool is_depth(const std::string& channel) {
 
 }  // namespace
 
-Status write_exr(const std::string& path, const Image& image, const WriteOptions& options) {
+Status write_exr(AtomicFile& file, const Image& image, const WriteOptions& options) {
   const bool half = options.pixel_type == PixelType::half;
   const auto channels = image.channels.size();
   OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(channels),
@@ -34,7 +34,7 @@ Status write_exr(const std::string& path, const Image& image, const WriteOptions
   for (const auto& [name, values] : image.matrices) {
     spec.attribute(name, OIIO::TypeDesc::TypeMatrix, values.data());
   }
-  if (!half) return write_with_oiio("openexr", path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+  if (!half) return write_with_oiio("openexr", file, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 
   // A bright pixel stays finite: halves end at 65504 and would become infinite.
   std::vector<float> pixels = image.pixels;
@@ -48,7 +48,7 @@ Status write_exr(const std::string& path, const Image& image, const WriteOptions
       if (std::isfinite(pixels[i])) pixels[i] = std::clamp(pixels[i], -kLargestHalf, kLargestHalf);
     }
   }
-  return write_with_oiio("openexr", path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+  return write_with_oiio("openexr", file, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
 }  // namespace umbrix::io::detail

@@ -32,7 +32,7 @@ std::uint8_t display_value(float linear, float scale, ToneMap tone_map) {
 
 }  // namespace
 
-Status write_png(const std::string& path, const Image& image, const WriteOptions& options) {
+Status write_png(AtomicFile& file, const Image& image, const WriteOptions& options) {
   const char* const names[] = {"R", "G", "B"};
   std::array<std::size_t, 3> source{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -56,7 +56,7 @@ Status write_png(const std::string& path, const Image& image, const WriteOptions
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", options.tone_map == ToneMap::none ? "Linear" : "sRGB");
   set_common_attributes(spec, image);
-  return write_with_oiio("png", path, spec, OIIO::TypeDesc::UINT8, pixels.data());
+  return write_with_oiio("png", file, spec, OIIO::TypeDesc::UINT8, pixels.data());
 }
 
 }  // namespace umbrix::io::detail

@@ -25,7 +25,7 @@ Status make_heat_map(const HeatMapContent& content, const io::Image& image, cons
                                                    : share_map(pixels, stats.shadow().routes);
   return {};
 } catch (const std::bad_alloc&) {
-  return {StatusCode::resource_limit, fmt::format("no memory for a heat map of {}x{}", image.width, image.height)};
+  return Status::out_of_memory("no memory for a heat map");
 }
 
 }  // namespace umbrix::render

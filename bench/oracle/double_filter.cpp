@@ -2,7 +2,7 @@
 //
 // The signed volumes of exact_hit.cpp in double, each with a bound on its rounding error. Doubles neither overflow nor
 // underflow here: non-zero terms of degree 4 in floats lie within 2^-596 .. 2^520.
-#include "oracle/triangle_filter.h"
+#include "oracle/double_filter.h"
 
 #include <algorithm>
 #include <array>

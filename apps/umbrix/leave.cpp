@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "leave.h"
+
+#include <unistd.h>
+
+#include <cstring>
+
+#include "umbrix/io/image_file.h"
+
+namespace umbrix::app {
+
+void leave_at_once(const char* text, int code) noexcept {
+  io::remove_temporaries();
+  if (text) [[maybe_unused]]
+    const auto written = write(STDERR_FILENO, text, std::strlen(text));
+  _exit(code);
+}
+
+}  // namespace umbrix::app

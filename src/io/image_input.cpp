@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/image_input.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "io/exr_header.h"
+#include "io/input_file.h"
+#include "io/load_error.h"
+
+namespace umbrix::io::detail {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Format {
+  std::string_view magic;
+  const char* reader;  // OpenImageIO's name
+};
+
+constexpr Format kFormats[] = {
+    {"\x76\x2f\x31\x01"sv, "openexr"}, {"\x89PNG\r\n\x1a\n"sv, "png"}, {"#?RADIANCE"sv, "hdr"}, {"#?RGBE"sv, "hdr"}};
+
+// The largest image, and how much larger it may be than its file beyond a size that does no harm. The best of the
+// codecs, deflate, makes at most 1032 bytes of one; PNG's bytes become floats.
+constexpr std::uint64_t kMostFloats = 1ull << 31;
+constexpr std::uint64_t kHarmlessFloats = 1ull << 24;
+constexpr std::uint64_t kMostFloatsPerByte = 1032;
+
+const char* find_reader(const std::vector<unsigned char>& start) {
+  const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+  for (const Format& format : kFormats) {
+    if (text.substr(0, format.magic.size()) == format.magic) return format.reader;
+  }
+  bad_input("is neither OpenEXR nor PNG nor Radiance HDR");
+}
+
+void check_size(const OIIO::ImageSpec& spec, std::uint64_t file_bytes) {
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0) bad_input("the image is empty");
+  const auto pixels = static_cast<std::uint64_t>(spec.width) * static_cast<std::uint64_t>(spec.height);
+  const auto channels = static_cast<std::uint64_t>(spec.nchannels);
+  const bool too_large = pixels > kMostFloats / channels;
+  const bool bomb = pixels * channels > kHarmlessFloats && pixels * channels / kMostFloatsPerByte > file_bytes;
+  if (too_large || bomb) {
+    over_limit("the image is too large: {} x {} with {} channels in {} bytes", spec.width, spec.height, channels,
+               file_bytes);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path) {
+  std::uint64_t file_bytes = 0;
+  const std::vector<unsigned char> start = read_start(path, kExrHeaderBytes, file_bytes);
+  const std::string_view reader = find_reader(start);
+  if (reader == "openexr") check_exr_header(start, file_bytes);
+  auto input = OIIO::ImageInput::create(reader.data());
+  if (!input) bad_input("{}", one_line(OIIO::geterror()));
+  OIIO::ImageSpec spec;
+  if (!input->open(path, spec)) bad_input("{}", one_line(input->geterror()));
+  check_size(spec, file_bytes);
+  return input;
+}
+
+}  // namespace umbrix::io::detail

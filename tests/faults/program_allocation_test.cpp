@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// One request for memory fails, or that one and all after it, for every request in turn of the whole program, with all
+// libraries that it uses.
+#include <climits>
+
+#include "fault_test.h"
+
+namespace umbrix::app {
+namespace {
+
+class ProgramAllocation : public FaultTest {
+ protected:
+  Outcome run_failing(const std::string& which, const std::vector<std::string>& arguments) {
+    return wait(
+        start_command(with_environment({"LD_PRELOAD=" UMBRIX_ALLOCATION_FAULTS, "UMBRIX_FAIL_ALLOCATION=" + which,
+                                        "UMBRIX_FAIL_COUNT=" + path("count")},
+                                       program(arguments))));
+  }
+
+  long count_requests(const std::vector<std::string>& arguments) {
+    EXPECT_EQ(run_failing(std::to_string(LONG_MAX), arguments).code, 0);
+    return std::stol(read("count"));
+  }
+
+  void fail_evenly(const std::vector<std::string>& arguments, int runs, FaultRow& row) {
+    const long requests = count_requests(arguments);
+    const long step = std::max(1L, requests / runs);
+    int survived = 0;
+    for (long n = 1 + static_cast<long>(random_() % static_cast<unsigned long>(step)); n <= requests; n += step) {
+      for (const char* name : {"out.exr", "out.png"}) write(name, "precious");
+      const Outcome outcome = run_failing(std::to_string(n) + (n % 2 == 0 ? "+" : ""), arguments);
+      // Some libraries do without what they cannot have.
+      const bool done = outcome.code == 0 && (arguments[0] != "render" || (is_new("out.exr") && is_new("out.png")));
+      const bool good = temporaries().empty() && is_whole("out.exr") && is_whole("out.png") &&
+                        (done || (outcome.code == 6 && !outcome.err.empty()));
+      survived += done ? 1 : 0;
+      EXPECT_TRUE(good) << "request " << n << " of " << requests << ": " << outcome.code << " " << outcome.err;
+      row.add(good);
+    }
+    row.remark("of " + std::to_string(requests) + " requests; " + std::to_string(survived) + " did without");
+  }
+};
+
+TEST_F(ProgramAllocation, OfARender) {
+  make_expected();
+  FaultRow row("a request for memory fails in `umbrix render`");
+  std::vector<std::string> arguments = render_arguments();
+  arguments.back() = "1";
+  fail_evenly(arguments, fault_runs(10, 2000), row);
+}
+
+TEST_F(ProgramAllocation, OfInfo) {
+  make_expected();
+  FaultRow row("a request for memory fails in `umbrix info`");
+  fail_evenly({"info", path("scene.gltf"), "--json"}, fault_runs(6, 2000), row);
+}
+
+}  // namespace
+}  // namespace umbrix::app

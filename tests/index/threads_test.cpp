@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Side tables that grow while rays are traced (links, the wide tree), and all others, are shared by threads from the
+// first ray on. The thread sanitizer watches here; threads of our own, as it does not know oneTBB's.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "small_scene.h"
+#include "umbrix/umbrix.h"
+
+namespace umbrix::detail {
+namespace {
+
+constexpr unsigned kThreads = 4;
+constexpr std::size_t kBatch = 50;
+
+template <class Body>
+void on_threads(const Body& body) {
+  std::vector<std::thread> workers;
+  for (unsigned t = 1; t < kThreads; ++t) workers.emplace_back(body);
+  body();
+  for (std::thread& worker : workers) worker.join();
+}
+
+/// Runs all indices on new threads.
+void parallel_for(void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
+  std::atomic<std::size_t> next{0};
+  on_threads([&] {
+    for (std::size_t i; (i = next.fetch_add(1)) < count;) body(data, i);
+  });
+}
+
+TEST(Threads, ShareAFreshSceneWithEveryKernel) {
+  constexpr std::uint32_t kSeed = 50;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  Executor executor;
+  executor.parallel_for = parallel_for;
+  const std::vector<Triangle> triangles = random_soup(600, 0.2f, kSeed);
+  MeshView mesh;
+  mesh.vertices = &triangles[0].v[0].x;
+  mesh.vertex_count = 3 * triangles.size();
+  mesh.triangle_count = triangles.size();
+  BuildOptions build;
+  build.executor = &executor;
+  Scene scene;
+  ASSERT_TRUE(scene.add(mesh).ok());
+  ASSERT_TRUE(scene.commit(build).ok());
+
+  const std::vector<Ray> rays = rays_to_light(2000, Vec3(0.7f, 0.4f, 1.5f), kSeed + 1);
+  QueryOptions options;
+  ASSERT_TRUE(find_kernel("brute", options.kernel).ok());
+  std::vector<std::uint8_t> truth(rays.size());
+  scene.occluded({rays.data(), rays.size()}, truth.data(), options);
+
+  for (std::size_t kernel = 0; kernel < kernel_count(); ++kernel) {
+    SCOPED_TRACE(kernel_info(kernel).name);
+    options.kernel.index = static_cast<int>(kernel);
+    Training training;
+    training.rays = {rays.data(), 300};
+    training.executor = &executor;
+    ASSERT_TRUE(scene.prepare(options.kernel, training).ok());
+    std::vector<std::uint8_t> out(rays.size());
+    std::vector<Hit> hits(rays.size());
+    std::atomic<std::size_t> next{0};
+    on_threads([&] {
+      for (std::size_t begin; (begin = kBatch * next.fetch_add(1)) < rays.size();) {
+        const RaySpan batch = {rays.data() + begin, kBatch};
+        scene.occluded(batch, out.data() + begin, options);
+        scene.closest(batch, hits.data() + begin, options);
+      }
+    });
+    EXPECT_EQ(out, truth);
+    for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(hits[i].valid(), truth[i] != 0) << "ray " << i;
+  }
+}
+
+}  // namespace
+}  // namespace umbrix::detail
