@@ -24,6 +24,7 @@ constexpr Entry kCommands[] = {
      table1_command},
     {"depth", "How deep in the tree lists of likely blockers end rays, and at what cost", depth_command},
     {"predictor", "How often a frame tracer guesses right, over the size of its regions and cells", predictor_command},
+    {"error", "Wrong answers, and the error of images, against time: a report with charts", error_command},
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the outside in: title, legend and axis titles take their room, the plot gets the rest; then grid and axes, bars,
-// lines, so that the thin is above the broad.
+// Grid and axes first, then bands, bars and lines, so that the thin is above the broad.
 #include "plot/line_chart.h"
 
 #include <algorithm>
@@ -8,30 +7,20 @@
 #include <limits>
 
 #include "plot/axis_scale.h"
+#include "plot/chart_area.h"
 #include "plot/series_style.h"
-#include "plot/svg.h"
 #include "umbrix/io/image_file.h"
 
 namespace umbrix::plot {
 namespace {
 
-constexpr double kTextSize = 13, kTitleSize = 16, kLine = 20, kPad = 12, kTickLength = 5, kSample = 24;
 constexpr std::size_t kMostMarkers = 40;
-constexpr const char *kInk = "#1a1a1a", *kGrid = "#dddddd", *kPaper = "#ffffff";
-
-/// An estimate, since the font is the viewer's choice: rather too wide.
-double text_width(const std::string& text) { return 0.63 * kTextSize * static_cast<double>(text.size()); }
-
-double widest_label(const AxisScale& scale) {
-  double width = 0;
-  for (const Tick& tick : scale.ticks) width = std::max(width, text_width(tick.label));
-  return width;
-}
+constexpr double kBandOpacity = 0.2;
 
 /// Draws one chart.
 class Painter {
  public:
-  explicit Painter(const LineChart& chart) : chart_(chart), svg_(chart.width, chart.height) {
+  explicit Painter(const LineChart& chart) : chart_(chart), area_(chart.width, chart.height, chart.title) {
     for (const Series& s : chart.series) {
       has_right_ = has_right_ || s.on_right_axis;
       bar_series_ += s.mark == Mark::bars;
@@ -43,45 +32,29 @@ class Painter {
   }
 
   std::string paint() {
-    svg_.rectangle(0, 0, chart_.width, chart_.height, kPaper);
-    double top = kPad;
-    if (!chart_.title.empty()) {
-      svg_.text({chart_.width / 2.0, top + kTitleSize}, chart_.title, Anchor::middle, kTitleSize);
-      top += kTitleSize + kPad;
-    }
-    top = draw_legend(top);
-    top_ = top + kPad;
-    bottom_ = chart_.height - kPad - 2 * kLine - kTickLength;
-    left_ = kPad + kLine + widest_label(y_) + kTickLength + 4;
-    end_ = chart_.width - (has_right_ ? kPad + kLine + widest_label(right_) + kTickLength + 4 : 2 * kPad);
-    draw_x_axis();
-    draw_upwards_axis(y_, chart_.y.title, false);
-    if (has_right_) draw_upwards_axis(right_, chart_.right.title, true);
+    area_.draw_legend(legend());
+    area_.lay_out(x_, y_, has_right_ ? &right_ : nullptr);
+    area_.draw_x_axis(chart_.x.title);
+    area_.draw_y_axis(chart_.y.title);
+    if (has_right_) area_.draw_y_axis(chart_.right.title, true);
+    for (std::size_t i = 0; i < chart_.series.size(); ++i) draw_band(i);
     std::size_t bars = 0;
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       if (chart_.series[i].mark == Mark::bars) draw_bars(i, bars++);
     }
-    svg_.line({left_, bottom_}, {end_, bottom_}, kInk, 1);
+    area_.svg().line({area_.left(), area_.bottom()}, {area_.end(), area_.bottom()}, kInk, 1);
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       if (chart_.series[i].mark == Mark::line) draw_line(i);
     }
-    return svg_.document();
+    return area_.svg().document();
   }
 
  private:
   const AxisScale& upwards(const Series& series) const { return series.on_right_axis ? right_ : y_; }
 
-  Point place(const Series& series, const Point& p) const {
-    return {left_ + x_.place(p.x) * (end_ - left_), bottom_ - upwards(series).place(p.y) * (bottom_ - top_)};
-  }
+  bool shown(const Series& series, const Point& p) const { return area_.shows(p, series.on_right_axis); }
 
-  /// Whether the point has a place and is within the axes.
-  bool shown(const Series& series, const Point& p) const {
-    if (!x_.shows(p.x) || !upwards(series).shows(p.y)) return false;
-    const double x = x_.place(p.x), y = upwards(series).place(p.y);
-    constexpr double kEdge = 1e-9;
-    return x >= -kEdge && x <= 1 + kEdge && y >= -kEdge && y <= 1 + kEdge;
-  }
+  Point place(const Series& series, const Point& p) const { return area_.place(p, series.on_right_axis); }
 
   Range range_along() const {
     AxisScale kind;
@@ -108,6 +81,10 @@ class Painter {
       for (const Point& p : s.points) {
         if (kind.shows(p.y)) range.add(p.y);
       }
+      for (const auto& [low, high] : s.band) {
+        if (kind.shows(low)) range.add(low);
+        if (kind.shows(high)) range.add(high);
+      }
     }
     if (!kind.logarithmic && !range.empty) range.add(0);
     return range;
@@ -126,59 +103,40 @@ class Painter {
     return std::isfinite(gap) ? gap : 1;
   }
 
-  /// Names and samples of the series in lines below `top`; returns where they end.
-  double draw_legend(double top) {
-    double x = 2 * kPad, y = top;
-    bool any = false;
+  std::vector<LegendEntry> legend() const {
+    std::vector<LegendEntry> entries;
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       const Series& series = chart_.series[i];
       if (series.name.empty()) continue;
-      const std::string name = series.name + (series.on_right_axis ? " (right)" : "");
-      const double width = kSample + 6 + text_width(name) + kLine;
-      if (any && x + width > chart_.width) {
-        x = 2 * kPad;
-        y += kLine;
-      }
-      const double middle = y + kLine / 2;
-      if (series.mark == Mark::bars) {
-        svg_.rectangle(x + kSample / 4, middle - 6, kSample / 2, 12, series_color(i));
-      } else {
-        svg_.line({x, middle}, {x + kSample, middle}, series_color(i), 2);
-        draw_marker(svg_, {x + kSample / 2, middle}, i);
-      }
-      svg_.text({x + kSample + 6, middle + 0.35 * kTextSize}, name, Anchor::start, kTextSize);
-      x += width;
-      any = true;
+      const bool is_bar = series.mark == Mark::bars;
+      entries.push_back(
+          {series.name + (series.on_right_axis ? " (right)" : ""), [i, is_bar](Svg& svg, const Point& at) {
+             constexpr double kSample = LegendEntry::kSample;
+             if (is_bar) return svg.rectangle(at.x - kSample / 4, at.y - 6, kSample / 2, 12, series_color(i));
+             svg.line({at.x - kSample / 2, at.y}, {at.x + kSample / 2, at.y}, series_color(i), 2);
+             draw_marker(svg, at, i);
+           }});
     }
-    return any ? y + kLine : y;
+    return entries;
   }
 
-  void draw_x_axis() {
-    for (const Tick& tick : x_.ticks) {
-      const double x = left_ + x_.place(tick.value) * (end_ - left_);
-      svg_.line({x, bottom_}, {x, bottom_ + (tick.label.empty() ? 0.6 : 1) * kTickLength}, kInk, 1);
-      svg_.text({x, bottom_ + kTickLength + kTextSize + 2}, tick.label, Anchor::middle, kTextSize);
+  /// Where points and band have a place.
+  void draw_band(std::size_t index) {
+    const Series& series = chart_.series[index];
+    std::vector<Point> outline, way_back;
+    for (std::size_t i = 0; i < std::min(series.points.size(), series.band.size()); ++i) {
+      const Point low = {series.points[i].x, series.band[i][0]}, high = {series.points[i].x, series.band[i][1]};
+      if (!shown(series, low) || !shown(series, high)) continue;
+      outline.push_back(place(series, low));
+      way_back.push_back(place(series, high));
     }
-    svg_.text({(left_ + end_) / 2, chart_.height - kPad}, chart_.x.title, Anchor::middle, kTextSize);
-  }
-
-  void draw_upwards_axis(const AxisScale& scale, const std::string& title, bool right) {
-    const double x = right ? end_ : left_, outwards = right ? 1 : -1;
-    for (const Tick& tick : scale.ticks) {
-      const double y = bottom_ - scale.place(tick.value) * (bottom_ - top_);
-      if (!right) svg_.line({left_, y}, {end_, y}, kGrid, 1);
-      svg_.line({x, y}, {x + outwards * (tick.label.empty() ? 0.6 : 1) * kTickLength, y}, kInk, 1);
-      svg_.text({x + outwards * (kTickLength + 4), y + 0.35 * kTextSize}, tick.label,
-                right ? Anchor::start : Anchor::end, kTextSize);
-    }
-    svg_.line({x, top_}, {x, bottom_}, kInk, 1);
-    const Point at = {right ? chart_.width - kPad - 4 : kPad + kTextSize, (top_ + bottom_) / 2};
-    svg_.text(at, title, Anchor::middle, kTextSize, right ? 90 : -90);
+    outline.insert(outline.end(), way_back.rbegin(), way_back.rend());
+    if (outline.size() > 2) area_.svg().polygon(outline, series_color(index), kBandOpacity);
   }
 
   void draw_bars(std::size_t index, std::size_t place_in_group) {
     const Series& series = chart_.series[index];
-    double group = end_ - left_;
+    double group = area_.end() - area_.left();
     std::vector<Point> tops;
     for (const Point& p : series.points) {
       if (shown(series, p)) tops.push_back(place(series, p));
@@ -188,10 +146,11 @@ class Painter {
     if (tops.size() == 1) group /= 4;
     const double width = 0.9 * group / static_cast<double>(bar_series_);
     const AxisScale& scale = upwards(series);
-    const double zero = scale.logarithmic ? bottom_ : bottom_ - std::clamp(scale.place(0), 0.0, 1.0) * (bottom_ - top_);
+    const double height = area_.bottom() - area_.top();
+    const double zero = area_.bottom() - (scale.logarithmic ? 0 : std::clamp(scale.place(0), 0.0, 1.0) * height);
     for (const Point& p : tops) {
       const double x = p.x - 0.45 * group + width * static_cast<double>(place_in_group);
-      svg_.rectangle(x, std::min(p.y, zero), width, std::abs(zero - p.y), series_color(index));
+      area_.svg().rectangle(x, std::min(p.y, zero), width, std::abs(zero - p.y), series_color(index));
     }
   }
 
@@ -199,7 +158,7 @@ class Painter {
     const Series& series = chart_.series[index];
     std::vector<Point> piece, all;
     const auto flush = [&] {
-      if (piece.size() > 1) svg_.polyline(piece, series_color(index), 2);
+      if (piece.size() > 1) area_.svg().polyline(piece, series_color(index), 2);
       piece.clear();
     };
     for (const Point& p : series.points) {
@@ -212,15 +171,14 @@ class Painter {
     }
     flush();
     if (all.size() > kMostMarkers) return;
-    for (const Point& p : all) draw_marker(svg_, p, index);
+    for (const Point& p : all) draw_marker(area_.svg(), p, index);
   }
 
   const LineChart& chart_;
-  Svg svg_;
+  ChartArea area_;
   bool has_right_ = false;
   int bar_series_ = 0;
   AxisScale x_, y_, right_;
-  double left_ = 0, end_ = 0, top_ = 0, bottom_ = 0;  ///< edges of the plot
 };
 
 }  // namespace

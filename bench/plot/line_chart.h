@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,7 @@ struct Series {
   std::vector<Point> points;
   Mark mark = Mark::line;
   bool on_right_axis = false;
+  std::vector<std::array<double, 2>> band = {};  ///< low and high around each point; empty: none
 };
 
 struct Axis {

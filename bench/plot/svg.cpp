@@ -6,8 +6,15 @@
 namespace umbrix::plot {
 namespace {
 
-/// Text that may stand in XML.
-std::string escaped(const std::string& text) {
+std::string list(const std::vector<Point>& points) {
+  std::string out;
+  for (const Point& p : points) out += fmt::format("{}{:.2f},{:.2f}", out.empty() ? "" : " ", p.x, p.y);
+  return out;
+}
+
+}  // namespace
+
+std::string xml_text(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '&') {
@@ -16,20 +23,14 @@ std::string escaped(const std::string& text) {
       out += "&lt;";
     } else if (c == '>') {
       out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
     } else {
       out += static_cast<unsigned char>(c) < ' ' ? '?' : c;  // XML has no control characters
     }
   }
   return out;
 }
-
-std::string list(const std::vector<Point>& points) {
-  std::string out;
-  for (const Point& p : points) out += fmt::format("{}{:.2f},{:.2f}", out.empty() ? "" : " ", p.x, p.y);
-  return out;
-}
-
-}  // namespace
 
 Svg::Svg(int width, int height)
     : body_(fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -43,9 +44,18 @@ void Svg::rectangle(double x, double y, double width, double height, const std::
 }
 
 void Svg::line(const Point& from, const Point& to, const std::string& stroke, double width) {
-  body_ +=
-      fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
-                  from.x, from.y, to.x, to.y, stroke, width);
+  add_line(from, to, stroke, width, "");
+}
+
+void Svg::dashed_line(const Point& from, const Point& to, const std::string& stroke, double width) {
+  add_line(from, to, stroke, width, " stroke-dasharray=\"5 4\"");
+}
+
+void Svg::add_line(const Point& from, const Point& to, const std::string& stroke, double width,
+                   const std::string& more) {
+  body_ += fmt::format(
+      "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", from.x,
+      from.y, to.x, to.y, stroke, width, more);
 }
 
 void Svg::polyline(const std::vector<Point>& points, const std::string& stroke, double width) {
@@ -54,8 +64,9 @@ void Svg::polyline(const std::vector<Point>& points, const std::string& stroke, 
       list(points), stroke, width);
 }
 
-void Svg::polygon(const std::vector<Point>& points, const std::string& fill) {
-  body_ += fmt::format("<polygon points=\"{}\" fill=\"{}\"/>\n", list(points), fill);
+void Svg::polygon(const std::vector<Point>& points, const std::string& fill, double opacity) {
+  const std::string veil = opacity == 1 ? "" : fmt::format(" fill-opacity=\"{}\"", opacity);
+  body_ += fmt::format("<polygon points=\"{}\" fill=\"{}\"{}/>\n", list(points), fill, veil);
 }
 
 void Svg::circle(const Point& centre, double radius, const std::string& fill) {
@@ -63,12 +74,18 @@ void Svg::circle(const Point& centre, double radius, const std::string& fill) {
       fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"{}\"/>\n", centre.x, centre.y, radius, fill);
 }
 
+void Svg::ring(const Point& centre, double radius, const std::string& stroke, double width) {
+  body_ +=
+      fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n",
+                  centre.x, centre.y, radius, stroke, width);
+}
+
 void Svg::text(const Point& at, const std::string& text, Anchor anchor, double size, double degrees) {
   const char* const anchors[] = {"start", "middle", "end"};
   const std::string turn =
       degrees == 0 ? "" : fmt::format(" transform=\"rotate({} {:.2f} {:.2f})\"", degrees, at.x, at.y);
   body_ += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" font-size=\"{}\"{}>{}</text>\n", at.x, at.y,
-                       anchors[static_cast<int>(anchor)], size, turn, escaped(text));
+                       anchors[static_cast<int>(anchor)], size, turn, xml_text(text));
 }
 
 }  // namespace umbrix::plot

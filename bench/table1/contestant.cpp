@@ -6,26 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "report.h"
-
 namespace umbrix::bench {
 namespace {
-
-RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile) {
-  const std::size_t begin = frame.tile_starts[tile];
-  return {frame.rays.data() + begin, frame.tile_starts[tile + 1] - begin};
-}
-
-std::size_t tile_count(const workload::TiledRays& frame) { return frame.tile_starts.size() - 1; }
-
-/// Calls trace(tile, answers) for all tiles and returns the thread's seconds.
-template <typename Trace>
-double trace_tiles(const workload::TiledRays& frame, std::vector<std::uint8_t>& answers, const Trace& trace) {
-  answers.assign(frame.rays.size(), 0);
-  const double start = thread_seconds();
-  for (std::size_t tile = 0; tile < tile_count(frame); ++tile) trace(tile, answers.data() + frame.tile_starts[tile]);
-  return thread_seconds() - start;
-}
 
 /// A kernel of the table. It is prepared from the frame before the last, and traces that one first: what it makes as it
 /// goes is there then.
@@ -126,12 +108,21 @@ bool is_wanted(const std::string& name, const std::vector<std::string>& wanted) 
 
 }  // namespace
 
+RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile) {
+  const std::size_t begin = frame.tile_starts[tile];
+  return {frame.rays.data() + begin, frame.tile_starts[tile + 1] - begin};
+}
+
 const Executor& one_thread() {
   static const Executor executor = {[](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
                                       for (std::size_t i = 0; i < count; ++i) body(data, i);
                                     },
                                     nullptr};
   return executor;
+}
+
+std::unique_ptr<Contestant> kernel_contestant(std::string name, KernelId kernel) {
+  return std::make_unique<KernelContestant>(std::move(name), kernel);
 }
 
 std::unique_ptr<Contestant> frame_contestant(std::string name, const FrameOptions& options) {
@@ -143,8 +134,7 @@ Status make_contestants(const std::vector<std::string>& names, std::vector<std::
   std::vector<std::unique_ptr<Contestant>> known;
   for (std::size_t i = 0; i < kernel_count(); ++i) {
     const std::string name = kernel_info(i).name;
-    if (name != "auto" && name != "brute")
-      known.push_back(std::make_unique<KernelContestant>(name, KernelId{static_cast<int>(i)}));
+    if (name != "auto" && name != "brute") known.push_back(kernel_contestant(name, KernelId{static_cast<int>(i)}));
   }
   known.push_back(frame_contestant("paper", paper_options()));
   known.push_back(frame_contestant("auto", FrameOptions()));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "report.h"
 #include "umbrix/umbrix.h"
 #include "workload/shadow_rays.h"
 
@@ -25,6 +26,19 @@ struct FrameResult {
   FrameStats frame;                ///< of frame tracers
 };
 
+/// The rays of a tile.
+RaySpan tile_rays(const workload::TiledRays& frame, std::size_t tile);
+
+/// Calls trace(tile, answers) for all tiles and returns the thread's seconds.
+template <typename Trace>
+double trace_tiles(const workload::TiledRays& frame, std::vector<std::uint8_t>& answers, const Trace& trace) {
+  answers.assign(frame.rays.size(), 0);
+  const std::size_t tiles = frame.tile_starts.size() - 1;
+  const double start = thread_seconds();
+  for (std::size_t tile = 0; tile < tiles; ++tile) trace(tile, answers.data() + frame.tile_starts[tile]);
+  return thread_seconds() - start;
+}
+
 /// A way to answer a frame's shadow rays.
 class Contestant {
  public:
@@ -39,6 +53,9 @@ class Contestant {
 /// method in full ("paper"). `names` may name them, or a family before a dash ("sato" for "sato-box" and the others);
 /// "all" is everything but "brute". invalid_argument names the known ones.
 Status make_contestants(const std::vector<std::string>& names, std::vector<std::unique_ptr<Contestant>>& out);
+
+/// A kernel of the table as a contestant.
+std::unique_ptr<Contestant> kernel_contestant(std::string name, KernelId kernel);
 
 /// A frame tracer with these options as a contestant.
 std::unique_ptr<Contestant> frame_contestant(std::string name, const FrameOptions& options);

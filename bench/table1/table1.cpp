@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "command.h"
+#include "light_choice.h"
 #include "report.h"
 #include "table1/contestant.h"
 #include "table1/moving_camera.h"
@@ -75,13 +76,11 @@ Status measure(const Settings& settings, const std::string& path, std::vector<Ta
   if (Status status = workload::find_viewpoint(geometry, settings.setup, viewpoint); !status) return status;
   Scene scene;
   if (Status status = workload::build_scene(geometry.views(), {}, scene); !status) return status;
-  for (std::size_t i = 0; i < viewpoint.lights.size(); ++i) {
-    if (settings.light != "all" && settings.light != std::to_string(i)) continue;
-    if (Status status = measure_light(settings, scene, geometry, viewpoint, i, rows); !status) return status;
+  std::vector<std::size_t> lights;
+  if (Status status = choose_lights(settings.light, viewpoint.lights.size(), path, lights); !status) return status;
+  for (const std::size_t light : lights) {
+    if (Status status = measure_light(settings, scene, geometry, viewpoint, light, rows); !status) return status;
   }
-  if (settings.light != "all" && std::stoull(settings.light) >= viewpoint.lights.size())
-    return {StatusCode::invalid_argument,
-            fmt::format("{}: no light {}; there are {}", path, settings.light, viewpoint.lights.size())};
   return {};
 }
 
@@ -104,13 +103,6 @@ ExitCode run(const Settings& settings) {
 
 std::function<ExitCode()> table1_command(CLI::App& app) {
   auto settings = std::make_shared<Settings>();
-  const auto is_light = CLI::Validator(
-      [](const std::string& text) {
-        const bool number =
-            !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
-        return number || text == "all" ? std::string() : "'" + text + "' is neither a number nor 'all'";
-      },
-      "N|all");
   app.add_option("scene", settings->scenes, "glTF files")->required();
   app.add_option("--setup", settings->setup, "Camera and lights from this file");
   app.add_option("--size", settings->size, "Primary rays in each direction")->check(CLI::Range(1, 1 << 14));
@@ -118,7 +110,7 @@ std::function<ExitCode()> table1_command(CLI::App& app) {
   app.add_option("--motion", settings->motion.step, "What the camera moves a frame, in scene diagonals")
       ->check(CLI::Range(0.0, 10.0));
   app.add_option("--rounds", settings->rounds, "Timed runs of each kernel")->check(CLI::Range(1, 1000));
-  app.add_option("--light", settings->light, "Which light, counted from 0, or all")->check(is_light);
+  app.add_option("--light", settings->light, "Which light, counted from 0, or all")->check(light_validator());
   app.add_option("--kernels", settings->kernels, "all, or some of them")->delimiter(',');
   app.add_option("--json", settings->json, "Write the rows to this file");
   app.add_option("--csv", settings->csv, "Write the rows to this file");

@@ -37,9 +37,9 @@ double diagonal(const Scene& scene) {
   return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
 }
 
-// The segment from a primary hit to the light; false if the surface faces away.
+// The segment from a primary hit to the light, and the irradiance that it would bring; false if the surface faces away.
 bool shadow_ray(const Ray& primary, const Hit& hit, const oracle::Triangle& triangle, const io::Light& light,
-                double offset, Ray& out) {
+                double offset, Ray& out, float& irradiance) {
   const Double3 n = facing_normal(triangle, primary);
   for (std::size_t k = 0; k < 3; ++k) {
     const double point = primary.origin[k] + double{hit.t} * primary.direction[k];
@@ -55,6 +55,7 @@ bool shadow_ray(const Ray& primary, const Hit& hit, const oracle::Triangle& tria
   for (std::size_t k = 0; k < 3; ++k) out.direction[k] = static_cast<float>(to_light[k] / distance);
   out.tmin = 0;
   out.tmax = is_directional ? std::numeric_limits<float>::infinity() : static_cast<float>(distance);
+  irradiance = static_cast<float>(dot(n, to_light) / distance / (is_directional ? 1 : distance * distance));
   return true;
 }
 
@@ -100,9 +101,11 @@ TiledRays tiled_shadow_rays(const Scene& scene, const Geometry& geometry, const 
         const Ray primary = view.ray(x + 0.5, y + 0.5);
         Hit hit;
         Ray ray;
+        float irradiance = 0;
         if (!scene.closest(primary, hit)) continue;
-        if (!shadow_ray(primary, hit, geometry.triangle(hit.primitive), light, offset, ray)) continue;
+        if (!shadow_ray(primary, hit, geometry.triangle(hit.primitive), light, offset, ray, irradiance)) continue;
         tiled.rays.push_back(ray);
+        tiled.irradiance.push_back(irradiance);
         tiled.pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
       }
     }

@@ -27,6 +27,7 @@ Status find_viewpoint(const Geometry& geometry, const std::string& setup_path, V
 struct TiledRays {
   std::vector<Ray> rays;
   std::vector<Pixel> pixels;             ///< of each ray
+  std::vector<float> irradiance;         ///< what each would bring if unoccluded, of a light of intensity 1
   std::vector<std::size_t> tile_starts;  ///< the first ray of each tile, and the end
 };
 

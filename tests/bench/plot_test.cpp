@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "plot/axis_scale.h"
+#include "xml_text.h"
 
 namespace umbrix::plot {
 namespace {
@@ -24,41 +25,6 @@ LineChart example() {
   return chart;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
-}
-
-/// Whether every element is closed in its order and no '&' or '<' stands alone: what makes XML of this text.
-testing::AssertionResult well_formed(const std::string& text) {
-  std::vector<std::string> open;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (text[at] == '&' && text.compare(at, 4, "&lt;") != 0 && text.compare(at, 4, "&gt;") != 0 &&
-        text.compare(at, 5, "&amp;") != 0) {
-      return testing::AssertionFailure() << "a bare & at " << at;
-    }
-    if (text[at] != '<') continue;
-    const std::size_t end = text.find('>', at);
-    if (end == std::string::npos || text.find('<', at + 1) < end) {
-      return testing::AssertionFailure() << "a bare < at " << at;
-    }
-    const std::string tag = text.substr(at + 1, end - at - 1);
-    if (count(tag, "\"") % 2 != 0) return testing::AssertionFailure() << "quotes of " << tag;
-    at = end;
-    if (tag.front() == '?' || tag.back() == '/') continue;
-    const std::string name = tag.substr(0, tag.find(' '));
-    if (name.front() != '/') {
-      open.push_back(name);
-    } else if (open.empty() || "/" + open.back() != name) {
-      return testing::AssertionFailure() << name << " closes nothing";
-    } else {
-      open.pop_back();
-    }
-  }
-  return open.empty() ? testing::AssertionSuccess() : testing::AssertionFailure() << open.back() << " stays open";
-}
-
 /// The coordinates of all elements lie on the page.
 void expect_on_page(const std::string& text, const LineChart& chart) {
   for (const auto& [name, most] : {std::pair<std::string, int>{" x=\"", chart.width}, {" y=\"", chart.height}}) {
@@ -68,18 +34,18 @@ void expect_on_page(const std::string& text, const LineChart& chart) {
       EXPECT_LE(value, most);
     }
   }
-  EXPECT_EQ(count(text, "nan") + count(text, "inf"), 0u);
+  EXPECT_EQ(count_of(text, "nan") + count_of(text, "inf"), 0u);
 }
 
 TEST(LineChart, IsWellFormedAndComplete) {
   const std::string text = svg_text(example());
   EXPECT_TRUE(well_formed(text));
-  EXPECT_EQ(count(text, "<svg "), 1u);
-  EXPECT_EQ(count(text, "<polyline "), 2u);
-  EXPECT_EQ(count(text, "<circle "), 3u + 1) << "markers of the first series, and in the legend";
+  EXPECT_EQ(count_of(text, "<svg "), 1u);
+  EXPECT_EQ(count_of(text, "<polyline "), 2u);
+  EXPECT_EQ(count_of(text, "<circle "), 3u + 1) << "markers of the first series, and in the legend";
   for (const char* said :
        {">Rays &amp; &lt;kernels&gt;<", ">depth<", ">tests a ray<", ">standard<", ">linked<", ">70<"})
-    EXPECT_EQ(count(text, said), 1u) << said;
+    EXPECT_EQ(count_of(text, said), 1u) << said;
   expect_on_page(text, example());
   EXPECT_EQ(text, svg_text(example()));
 }
@@ -89,8 +55,8 @@ TEST(LineChart, BarsStandSideBySideFromZero) {
   for (Series& series : chart.series) series.mark = Mark::bars;
   const std::string text = svg_text(chart);
   EXPECT_TRUE(well_formed(text));
-  EXPECT_EQ(count(text, "<polyline "), 0u);
-  EXPECT_EQ(count(text, "<rect "), 1u + 6 + 2) << "paper, bars, legend";
+  EXPECT_EQ(count_of(text, "<polyline "), 0u);
+  EXPECT_EQ(count_of(text, "<rect "), 1u + 6 + 2) << "paper, bars, legend";
   expect_on_page(text, chart);
 }
 
@@ -101,9 +67,9 @@ TEST(LineChart, RightAxisHasItsOwnScale) {
   chart.right.title = "share";
   const std::string text = svg_text(chart);
   EXPECT_TRUE(well_formed(text));
-  EXPECT_EQ(count(text, ">share<"), 1u);
-  EXPECT_EQ(count(text, ">0.6<"), 1u);
-  EXPECT_EQ(count(text, ">linked (right)<"), 1u);
+  EXPECT_EQ(count_of(text, ">share<"), 1u);
+  EXPECT_EQ(count_of(text, ">0.6<"), 1u);
+  EXPECT_EQ(count_of(text, ">linked (right)<"), 1u);
   expect_on_page(text, chart);
 }
 
@@ -113,7 +79,7 @@ TEST(LineChart, HolesAndNothing) {
   chart.y.logarithmic = true;
   chart.series = {{"a", {{1, 10}, {2, 100}, {3, nan}, {4, 0}, {5, infinity}, {6, 10}, {7, 20}, {nan, 3}}}};
   const std::string text = svg_text(chart);
-  EXPECT_EQ(count(text, "<polyline "), 2u) << "the line has a hole";
+  EXPECT_EQ(count_of(text, "<polyline "), 2u) << "the line has a hole";
   expect_on_page(text, chart);
   for (const bool logarithmic : {false, true}) {
     LineChart empty;
