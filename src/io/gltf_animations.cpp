@@ -26,7 +26,7 @@ struct MovingNode {
 namespace {
 
 // All keys of a file that are read: days of a camera with a key for each frame, and no more than a small file costs.
-constexpr std::uint64_t kMostKeyBytes = 1u << 26;
+constexpr std::uint64_t kMostKeyBytes = 1u << 25;
 // Cameras below each other share nodes that move, but each lists its way; a small file could list much.
 constexpr std::size_t kMostPathNodes = 1u << 20;
 

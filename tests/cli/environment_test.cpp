@@ -35,7 +35,7 @@ TEST_F(Environment, NoVariablesFewFilesAndALocaleOfItsOwnChangeNothing) {
 // Three standard streams leave no room for the scene.
 TEST_F(Environment, NoFilesAtAllIsACleanError) {
   write_scene();
-  const int code = shell("ulimit -n 4; $umbrix out.png 2>/dev/null");
+  const int code = shell("(ulimit -n 4; $umbrix out.png) 2>/dev/null");
   EXPECT_TRUE(code == 3 || code == 4 || code == 127 || code == 1) << code;
   EXPECT_FALSE(exists("out.png"));
 }
