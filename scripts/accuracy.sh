@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Measures run time against error and makes the page of it. Usage: scripts/accuracy.sh FOLDER SETUP SCENE...
-# FOLDER receives index.html and its charts. FLIP is on the page if Python has the package flip-evaluator.
+# FOLDER receives index.html and its charts. FLIP is on the page if Python has the packages flip-evaluator and numpy.
 # UMBRIX_ACCURACY: more options of `umbrix-bench error`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -14,9 +14,9 @@ trap 'rm -rf "$work"' EXIT
 
 # shellcheck disable=SC2086  # the options are several words
 "$bench" error "$@" --setup "$setup" --keep-images "$work" --json "$work/error.json" ${UMBRIX_ACCURACY:-}
-if python3 -c 'import flip_evaluator' 2> /dev/null; then
+if python3 -c 'import flip_evaluator, numpy' 2> /dev/null; then
   python3 bench/error/flip.py "$work" "$work/error.json"
 else
-  echo "no FLIP: Python has no package flip-evaluator" >&2
+  echo "no FLIP: Python has not both flip-evaluator and numpy" >&2
 fi
 "$bench" error --from "$work/error.json" --out "$folder"

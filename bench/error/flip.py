@@ -4,7 +4,7 @@
 
 LDR-FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images") between the pictures that
 --keep-images wrote and their references, at 67 pixels per degree: of each number of samples the mean and the 99th
-percentile over pixels, as median and quartiles over the seeds. Needs the package flip-evaluator.
+percentile over pixels, as median and quartiles over the seeds. Needs the packages flip-evaluator and numpy.
 
 usage: flip.py IMAGES error.json     (rewrites error.json)
 """
@@ -16,7 +16,7 @@ try:
     import flip_evaluator
     import numpy
 except ImportError as error:
-    sys.exit(f"flip.py: {error}; try: pip install flip-evaluator")
+    sys.exit(f"flip.py: {error}; try: pip install flip-evaluator numpy")
 
 
 def estimate(values):

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "error/html.h"
 #include "error/page_tables.h"
@@ -30,18 +31,19 @@ std::string inline_figure(const Figure& figure) {
 
 std::string lead(const nlohmann::json& report) {
   std::uint64_t rays = 0, answers = 0, wrong = 0;
+  std::set<std::string> tracers;
   for (const nlohmann::json& row : report.at("rows")) {
     const std::string family = row.at("family");
     if (row.at("scene") == "all scenes" || family.rfind("embree", 0) == 0) continue;
     if (row.at("peer") == "umbrix:standard") rays += row.at("rays").get<std::uint64_t>();
+    tracers.insert(row.at("peer"));
     answers += row.at("rays").get<std::uint64_t>();
     wrong += row.at("leaks").get<std::uint64_t>() + row.at("false_shadows").get<std::uint64_t>();
   }
   return fmt::format(
-      "<p class=\"lead\">Umbrix answered {} shadow rays with all of its kernels and frame tracers: {} "
-      "answers, {} of them wrong. Below: wrong answers and image error, each against time, with Embree "
-      "{} on the same rays.</p>\n",
-      rays, answers, wrong, plot::xml_text(report.at("machine").at("embree").get<std::string>()));
+      "<p class=\"lead\">{} kernels and frame tracers of Umbrix answered {} shadow rays: {} answers, {} of them wrong. "
+      "Below: wrong answers and image error, each against time, with Embree {} on the same rays.</p>\n",
+      tracers.size(), rays, answers, wrong, plot::xml_text(report.at("machine").at("embree").get<std::string>()));
 }
 
 std::string load_text(const nlohmann::json& load) {
