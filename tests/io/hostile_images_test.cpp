@@ -2,6 +2,9 @@
 // Images that claim what they have not: refused by their headers, before decoders ask for memory.
 
 #include <gtest/gtest.h>
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
 
 #include <fstream>
 #include <functional>
@@ -89,6 +92,10 @@ TEST(HostileImages, OpenExrHeadersThatLie) {
 }
 
 TEST(HostileImages, CutAnywhere) {
+#if defined(__SANITIZE_ADDRESS__)
+  // libpng leaves OpenImageIO 2.4's reader by a jump, past destructors (docs/fuzzing.md).
+  const __lsan::ScopedDisabler no_leaks;
+#endif
   const TempFolder folder;
   for (const char* name : {"cut.exr", "cut.png"}) {
     const std::string good = written_image(folder, name);
