@@ -23,6 +23,20 @@ std::uint64_t hash(const io::Image& image) {
   return result;
 }
 
+/// A sphere and a rectangle where the camera is, and a dim sky: a picture has lights of all sizes.
+void add_lamps(View& view) {
+  io::Light lamp;
+  lamp.position = {view.camera.to_world[0][3], view.camera.to_world[1][3], view.camera.to_world[2][3]};
+  lamp.type = io::LightType::sphere;
+  lamp.radius = 0.1f;
+  view.lights.push_back(lamp);
+  lamp.type = io::LightType::rectangle;
+  view.lights.push_back(lamp);
+  lamp.type = io::LightType::environment;
+  lamp.intensity = 0.1f;
+  view.lights.push_back(lamp);
+}
+
 Status load(const char* path, const char* setup_path, io::SceneFile& scene, View& view) {
   if (Status status = io::load_scene(path, scene); !status) return status;
   io::Setup setup;
@@ -34,6 +48,8 @@ Status load(const char* path, const char* setup_path, io::SceneFile& scene, View
                                         : scene.cameras.front();
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
   if (view.lights.empty()) view.lights = {io::default_light(view.camera)};
+  for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
+  add_lamps(view);
   return {};
 }
 
