@@ -16,6 +16,7 @@
   KERNEL(kRopesKernel)         \
   KERNEL(kWideKernel)          \
   KERNEL(kBeamKernel)          \
+  KERNEL(kLightViewKernel)     \
   KERNEL(kFarFirstKernel)      \
   KERNEL(kSatoBoxKernel)       \
   KERNEL(kSatoAreaKernel)      \

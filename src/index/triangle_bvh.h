@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math.h"
+#include "index/side_table.h"
+
+
+namespace umbrix::detail {
+
+/// How many triangles stand side by side.
+inline constexpr std::uint32_t kRowLanes = 16;
+/// Children of a node.
+inline constexpr std::uint32_t kBvhWidth = 4;
+
+/// The exact vertices of up to sixteen triangles, in the tree's units. Lanes from `count` on repeat the first.
+struct alignas(64) TriangleRows {
+  float v[3][3][kRowLanes];  ///< by vertex and axis
+  std::uint32_t id[kRowLanes];
+  std::uint32_t count;
+};
+
+/// Boxes of up to four children. What is left over has a box that nothing meets.
+struct alignas(64) BvhNode {
+  float lower[3][kBvhWidth], upper[3][kBvhWidth];
+  std::uint32_t child[kBvhWidth];  ///< a node, or kBvhLeaf with the place of a TriangleRows
+
+  static constexpr std::uint32_t kLeaf = 0x80000000u;
+};
+
+/// A hierarchy of boxes in which each triangle is once: for walks that many rays share, where a triangle that is met
+/// twice costs more than boxes that overlap.
+class TriangleBvh : public SideTable {
+ public:
+  /// Over the triangles named by `kept`, times 2^exponent. Throws std::bad_alloc.
+  TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent);
+
+  std::uint64_t bytes() const noexcept override;
+
+  /// Node 0 is the root; there is none if there are no triangles.
+  bool empty() const noexcept { return nodes_.empty(); }
+  const BvhNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
+  const TriangleRows& rows(std::uint32_t index) const noexcept { return rows_[index]; }
+  std::size_t rows_count() const noexcept { return rows_.size(); }
+
+ private:
+  std::vector<BvhNode> nodes_;
+  std::vector<TriangleRows> rows_;
+};
+
+}  // namespace umbrix::detail

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Triangles as a light sees them. For A, B, C as offsets from the light, a start at m r (r = (u, v, +-1) on the face's
+// axes, m its depth, w = 1/m) and N the triangle's normal:
+//   the line from the start to the light passes A and B on the side of (A x (B - A)) . r,
+//   and the triangle's plane lies before the start if N . r / (N . A) > w.
+// Errors, with e = 2^-24, n = |r| <= sqrt(3), starts off by s and the light by l: every rounding in a cross product is at
+// most e times the product of the lengths, so that
+//   an edge is wrong by less than |E| ((32 e |A| + 2 l) + |A| (s + 1.1 l) w),
+//   N . r by 28 e |E||F|, (N . A) w by (24 e |A| + 1.1 s) |E||F| w, for edges E and F,
+// and if |N . A| > 4 |E||F| (16 e |A| + 1.1 l), the light is on the side that its sign tells.
+
+#if defined(UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
+#undef UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
+#else
+#define UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "kernels/light_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+struct LaneVec3 {
+  RayVec x, y, z;
+};
+HWY_INLINE LaneVec3 minus(const LaneVec3& a, const LaneVec3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE LaneVec3 cross(const LaneVec3& a, const LaneVec3& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+HWY_INLINE RayVec dot(const LaneVec3& a, const LaneVec3& b) {
+  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+}
+/// A bound of the length.
+HWY_INLINE RayVec length(const LaneVec3& a) {
+  return hn::Mul(hn::Sqrt(dot(a, a)), hn::Set(RayTag(), 1 + 0x1p-20f));
+}
+
+/// Sixteen triangles and one light.
+class TriangleLanes {
+ public:
+  TriangleLanes(const TriangleRows& rows, const float* light, const ViewErrors& errors)
+      : rows_(rows), light_(light), errors_(errors) {}
+
+  /// Rectangles and nearest points on a face: a triangle that spans it or comes too near has no bounds.
+  void bound(const Face& face, GroupRows& out) const {
+    const RayTag f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    const auto off = hn::Set(f, errors_.end + errors_.start);
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto low_u = infinity, low_v = infinity, high_u = hn::Neg(infinity), high_v = high_u, least = infinity;
+      for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
+        const auto m = hn::Mul(offset(vertex, face.axis, i), hn::Set(f, face.sign));
+        const auto w = hn::Div(hn::Set(f, 1.0f), m);
+        const auto u = hn::Mul(offset(vertex, face.u_axis(), i), w), v = hn::Mul(offset(vertex, face.v_axis(), i), w);
+        least = hn::Min(least, m);
+        low_u = hn::Min(low_u, u);
+        high_u = hn::Max(high_u, u);
+        low_v = hn::Min(low_v, v);
+        high_v = hn::Max(high_v, v);
+      }
+      const auto bounded = hn::Gt(least, hn::Mul(off, hn::Set(f, 16.0f)));
+      const auto w = hn::Div(hn::Set(f, 1 + 0x1p-18f), least);
+      const auto margin = hn::MulAdd(hn::Mul(off, hn::Set(f, 4.0f)), w, hn::Set(f, 0x1p-19f));
+      const auto put = [&](GroupRows::Row row, RayVec x, RayVec otherwise) {
+        hn::Store(hn::IfThenElse(bounded, x, otherwise), f, out.rows[row] + i);
+      };
+      put(GroupRows::low_u, hn::Sub(low_u, margin), hn::Neg(infinity));
+      put(GroupRows::high_u, hn::Add(high_u, margin), infinity);
+      put(GroupRows::low_v, hn::Sub(low_v, margin), hn::Neg(infinity));
+      put(GroupRows::high_v, hn::Add(high_v, margin), infinity);
+      put(GroupRows::farthest, w, infinity);
+    }
+  }
+
+  /// Returns the lanes of which the light's side is not known.
+  std::uint32_t prepare(LightTriangles& out) const {
+    const RayTag f;
+    std::uint32_t edge_on = 0;
+    constexpr float e = 0x1p-24f;
+    const auto set = [&](float x) { return hn::Set(f, x); };
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const LaneVec3 a = offset(0, i), b = offset(1, i), c = offset(2, i);
+      const LaneVec3 ab = edge(0, 1, i), bc = edge(1, 2, i), ca = edge(2, 0, i);
+      const LaneVec3 normal = cross(ab, edge(0, 2, i));
+      const auto det = dot(normal, a);
+      const auto a_length = length(a);
+      const auto farthest = hn::Max(a_length, hn::Max(length(b), length(c)));
+      const auto ab_length = length(ab), ca_length = length(ca), longest = hn::Max(hn::Max(ab_length, ca_length), length(bc));
+      const auto product = hn::MulAdd(ab_length, ca_length, set(0x1p-100f));
+      const auto det_error = hn::Mul(product, hn::MulAdd(set(64 * e), a_length, set(4.5f * errors_.end)));
+      const auto known = hn::Gt(hn::Abs(det), det_error);
+      edge_on |= ~ray_bits(known) << i;
+      const auto sign = hn::IfThenElseZero(known, hn::And(det, set(-0.0f)));
+      const auto put = [&](float(&rows)[3][kRowLanes], const LaneVec3& x) {
+        hn::Store(hn::Xor(x.x, sign), f, rows[0] + i);
+        hn::Store(hn::Xor(x.y, sign), f, rows[1] + i);
+        hn::Store(hn::Xor(x.z, sign), f, rows[2] + i);
+      };
+      put(out.edge[0], cross(a, ab));
+      put(out.edge[1], cross(b, bc));
+      put(out.edge[2], cross(c, ca));
+      const auto inverse = hn::Div(set(1.0f), hn::IfThenElse(known, det, set(1.0f)));
+      const auto plane = [&](std::uint32_t k, RayVec x) { hn::Store(hn::Mul(x, inverse), f, out.plane[k] + i); };
+      plane(0, normal.x);
+      plane(1, normal.y);
+      plane(2, normal.z);
+      const auto tiny = set(0x1p-100f);
+      hn::Store(hn::MulAdd(longest, hn::MulAdd(set(32 * e), farthest, set(2 * errors_.end)), tiny), f,
+                out.edge_error[0] + i);
+      hn::Store(hn::Mul(hn::Mul(longest, farthest), set(errors_.start + 1.1f * errors_.end)), f, out.edge_error[1] + i);
+      const auto ratio = hn::Mul(product, hn::Abs(inverse));
+      hn::Store(hn::Mul(ratio, set(28 * e)), f, out.plane_error[0] + i);
+      hn::Store(hn::MulAdd(ratio, hn::MulAdd(set(24 * e), a_length, set(1.1f * errors_.start)), set(8 * e)), f,
+                out.plane_error[1] + i);
+    }
+    std::memcpy(out.id, rows_.id, sizeof out.id);
+    return edge_on;
+  }
+
+ private:
+  RayVec row(std::uint32_t vertex, std::uint32_t axis, std::uint32_t i) const {
+    return hn::Load(RayTag(), rows_.v[vertex][axis] + i);
+  }
+  RayVec offset(std::uint32_t vertex, std::uint32_t axis, std::uint32_t i) const {
+    return hn::Sub(row(vertex, axis, i), hn::Set(RayTag(), light_[axis]));
+  }
+  LaneVec3 offset(std::uint32_t vertex, std::uint32_t i) const {
+    return {offset(vertex, 0, i), offset(vertex, 1, i), offset(vertex, 2, i)};
+  }
+  LaneVec3 edge(std::uint32_t from, std::uint32_t to, std::uint32_t i) const {
+    return {hn::Sub(row(to, 0, i), row(from, 0, i)), hn::Sub(row(to, 1, i), row(from, 1, i)),
+            hn::Sub(row(to, 2, i), row(from, 2, i))};
+  }
+
+  const TriangleRows& rows_;
+  const float* light_;
+  const ViewErrors& errors_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

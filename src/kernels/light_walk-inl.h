@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+// One walk of the hierarchy for all groups of rays that a light has, as an irregular z-buffer draws all triangles at
+// once (Johnson et al. 2005; Aila & Laine 2004): boxes are tested against groups side by side, and each row of triangles
+// is prepared for the light once, for the groups that it may block.
+
+#if defined(UMBRIX_KERNELS_LIGHT_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_LIGHT_WALK_INL_H_
+#undef UMBRIX_KERNELS_LIGHT_WALK_INL_H_
+#else
+#define UMBRIX_KERNELS_LIGHT_WALK_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "kernels/light_triangles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// Where a box may block starts, as the light sees it on a face.
+struct ViewBox {
+  float low_u, high_u, low_v, high_v, nearest;
+};
+
+/// A group's rectangle and starts against sixteen triangles.
+class GroupTest {
+ public:
+  GroupTest(const Face& face, const RayGroup& group) : face_(face), group_(group) {}
+
+  struct Result {
+    std::uint32_t met;     ///< may block some start
+    std::uint32_t blocks;  ///< surely blocks all of them
+  };
+
+  Result operator()(const LightTriangles& t, std::uint32_t wanted, std::uint32_t edge_on) const {
+    const RayTag f;
+    Result result{0, 0};
+    const auto u = hn::Set(f, group_.u), v = hn::Set(f, group_.v), side = hn::Set(f, face_.sign);
+    const auto half_u = hn::Set(f, group_.half_u), half_v = hn::Set(f, group_.half_v);
+    const auto nearest = hn::Set(f, group_.nearest);
+    const auto slope_u = hn::Set(f, group_.slope_u), slope_v = hn::Set(f, group_.slope_v), base = hn::Set(f, group_.base);
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
+    for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
+      const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
+      if (some == 0) continue;
+      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), nearest, hn::Load(f, t.edge_error[0] + i));
+      auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
+      auto least_low = least_high;
+      for (const auto& edge : t.edge) {
+        const auto eu = hn::Load(f, edge[face_.u_axis()] + i), ev = hn::Load(f, edge[face_.v_axis()] + i);
+        const auto middle = hn::MulAdd(eu, u, hn::MulAdd(ev, v, hn::Mul(hn::Load(f, edge[face_.axis] + i), side)));
+        const auto reach = hn::MulAdd(hn::Abs(eu), half_u, hn::MulAdd(hn::Abs(ev), half_v, error));
+        least_high = hn::Min(least_high, hn::Add(middle, reach));
+        most_low = hn::Max(most_low, hn::Sub(middle, reach));
+        least_low = hn::Min(least_low, hn::Sub(middle, reach));
+      }
+      const auto outside = hn::Lt(least_high, hn::Zero(f));
+      const auto pu = hn::Load(f, t.plane[face_.u_axis()] + i), pv = hn::Load(f, t.plane[face_.v_axis()] + i);
+      const auto pw = hn::Mul(hn::Load(f, t.plane[face_.axis] + i), side);
+      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
+      const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
+      const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
+      const auto behind = hn::Lt(
+          hn::Add(before, hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error))), hn::Zero(f));
+      const auto plane = hn::MulAdd(pu, u, hn::MulAdd(pv, v, pw));
+      const auto plane_reach = hn::MulAdd(hn::Abs(pu), half_u, hn::MulAdd(hn::Abs(pv), half_v, plane_error));
+      const auto covers = hn::And(hn::Gt(least_low, hn::Zero(f)),
+                                  hn::Gt(hn::Sub(plane, plane_reach), hn::Mul(nearest, hn::Set(f, 1 + 0x1p-18f))));
+      const std::uint32_t known = ~(edge_on >> i);
+      // Without a known side: outside if it is on different sides of two edges.
+      const std::uint32_t apart = ray_bits(hn::And(outside, hn::Gt(most_low, hn::Zero(f))));
+      const std::uint32_t missed = (ray_bits(hn::Or(outside, behind)) & known) | (apart & ~known);
+      result.met |= (some & ~missed) << i;
+      result.blocks |= (some & known & ray_bits(covers)) << i;
+    }
+    return result;
+  }
+
+ private:
+  const Face& face_;
+  const RayGroup& group_;
+};
+
+/// Finds what the groups' rays may meet.
+class LightWalk {
+ public:
+  LightWalk(const TriangleBvh& bvh, const float* light, const ViewErrors& errors, bool may_cover,
+            LightViewScratch& scratch)
+      : bvh_(bvh), light_(light), errors_(errors), may_cover_(may_cover), scratch_(scratch) {}
+
+  /// Fills the scratch's triangles and meetings.
+  void walk() {
+    scratch_.triangles.clear();
+    scratch_.meetings.clear();
+    first_group_ = 0;
+    for (std::uint32_t number = 0; number < kViewFaces; ++number) {
+      auto& groups = scratch_.faces[number];
+      if (groups.groups.empty()) continue;
+      lay_out(groups);
+      Here here{Face(number), groups};
+      auto& lists = scratch_.lists;
+      lists.clear();
+      for (std::uint32_t row = 0; row < groups.rows.size(); ++row)
+        lists.push_back(static_cast<std::uint64_t>(row) << 32 | groups.live[row]);
+      visit(here, 0, 0, lists.size(), lists.size());
+      first_group_ += static_cast<std::uint32_t>(groups.groups.size());
+    }
+  }
+
+ private:
+  struct Here {
+    Face face;
+    LightViewScratch::FaceGroups& groups;
+  };
+
+  static std::uint32_t spread(std::uint32_t x) {  // a zero before each of 16 bits
+    x = (x | x << 8) & 0x00FF00FFu;
+    x = (x | x << 4) & 0x0F0F0F0Fu;
+    x = (x | x << 2) & 0x33333333u;
+    return (x | x << 1) & 0x55555555u;
+  }
+  static std::uint32_t place(const RayGroup& g) {
+    const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp((x + 1) * 32767.5f, 0.0f, 65535.0f)); };
+    return spread(cell(g.u)) | spread(cell(g.v)) << 1;
+  }
+
+  /// Brings groups that are near each other side by side, with the margins that all rays have together.
+  void lay_out(LightViewScratch::FaceGroups& face) {
+    for (RayGroup& g : face.groups) {
+      g.half_u += 0x1p-20f + 2 * errors_.start * g.nearest;
+      g.half_v += 0x1p-20f + 2 * errors_.start * g.nearest;
+      const float off = 0x1p-21f + errors_.start * g.nearest;
+      g.base -= off * (g.nearest + std::abs(g.slope_u) + std::abs(g.slope_v));
+      g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end) * g.nearest);
+      g.nearest *= 1 + off;
+    }
+    std::sort(face.groups.begin(), face.groups.end(), [](const RayGroup& a, const RayGroup& b) { return place(a) < place(b); });
+    const std::size_t rows = (face.groups.size() + kRowLanes - 1) / kRowLanes;
+    face.rows.resize(rows);
+    face.live.assign(rows, 0);
+    for (std::size_t i = 0; i < rows * kRowLanes; ++i) {
+      const bool used = i < face.groups.size();
+      const RayGroup& g = face.groups[used ? i : 0];
+      auto& row = face.rows[i / kRowLanes].rows;
+      const std::size_t lane = i % kRowLanes;
+      row[GroupRows::low_u][lane] = g.u - g.half_u;
+      row[GroupRows::high_u][lane] = g.u + g.half_u;
+      row[GroupRows::low_v][lane] = g.v - g.half_v;
+      row[GroupRows::high_v][lane] = g.v + g.half_v;
+      row[GroupRows::farthest][lane] = g.farthest;
+      if (used) face.live[i / kRowLanes] |= 1u << lane;
+    }
+  }
+
+  /// False if nothing of the box is on the face's side.
+  bool project(const BvhNode& node, std::uint32_t child, const Face& face, ViewBox& out) const {
+    const auto low = [&](std::uint32_t axis) { return node.lower[axis][child] - light_[axis]; };
+    const auto high = [&](std::uint32_t axis) { return node.upper[axis][child] - light_[axis]; };
+    const float off = errors_.start + errors_.end;
+    const float near_m = face.sign > 0 ? low(face.axis) : -high(face.axis);
+    const float far_m = (face.sign > 0 ? high(face.axis) : -low(face.axis)) + 4 * off;
+    if (!(far_m > 0)) return false;
+    if (near_m > 16 * off) {
+      const float near_w = 1 / near_m, far_w = 1 / far_m;
+      const float margin = 0x1p-18f + 4 * off * near_w;
+      const auto least = [&](float x) { return x * (x > 0 ? far_w : near_w) - margin; };
+      const auto most = [&](float x) { return x * (x > 0 ? near_w : far_w) + margin; };
+      out = {least(low(face.u_axis())), most(high(face.u_axis())), least(low(face.v_axis())), most(high(face.v_axis())),
+             near_w * (1 + 0x1p-18f)};
+      return out.low_u <= 1 + 0x1p-18f && out.high_u >= -1 - 0x1p-18f && out.low_v <= 1 + 0x1p-18f && out.high_v >= -1 - 0x1p-18f;
+    }
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    // Up to the face's plane the box may cover one side of it, or all.
+    const float far_w = 1 / far_m;
+    const auto least = [&](float x) { return x > 0 ? x * far_w * (1 - 0x1p-18f) - 0x1p-18f : -kInfinity; };
+    const auto most = [&](float x) { return x < 0 ? x * far_w * (1 - 0x1p-18f) + 0x1p-18f : kInfinity; };
+    out = {least(low(face.u_axis()) - 4 * off), most(high(face.u_axis()) + 4 * off), least(low(face.v_axis()) - 4 * off), most(high(face.v_axis()) + 4 * off), kInfinity};
+    return true;
+  }
+
+  static HWY_INLINE std::uint32_t meet(const GroupRows& groups, const ViewBox& box) {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto row = [&](GroupRows::Row r) { return hn::Load(f, groups.rows[r] + i); };
+      const auto in_u = hn::And(hn::Le(row(GroupRows::low_u), hn::Set(f, box.high_u)),
+                                hn::Ge(row(GroupRows::high_u), hn::Set(f, box.low_u)));
+      const auto in_v = hn::And(hn::Le(row(GroupRows::low_v), hn::Set(f, box.high_v)),
+                                hn::Ge(row(GroupRows::high_v), hn::Set(f, box.low_v)));
+      const auto before = hn::Le(row(GroupRows::farthest), hn::Set(f, box.nearest));
+      result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
+    }
+    return result;
+  }
+
+  /// `first` and `count` name entries of the lists, a row of groups and lanes of it; from `top` on there is room.
+  void visit(Here& here, std::uint32_t index, std::size_t first, std::size_t count, std::size_t top) {
+    const BvhNode& node = bvh_.node(index);
+    auto& lists = scratch_.lists;
+    if (lists.size() < top + kBvhWidth * count) lists.resize(2 * (top + kBvhWidth * count));
+    std::size_t ends[kBvhWidth];
+    ViewBox boxes[kBvhWidth];
+    bool on_side[kBvhWidth];
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+      on_side[child] = project(node, child, here.face, boxes[child]);
+      ends[child] = top + child * count;
+    }
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto row = static_cast<std::uint32_t>(lists[i] >> 32);
+      const std::uint32_t lanes = static_cast<std::uint32_t>(lists[i]) & here.groups.live[row];
+      if (lanes == 0) continue;
+      for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+        if (!on_side[child]) continue;
+        const std::uint32_t met = lanes & meet(here.groups.rows[row], boxes[child]);
+        if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
+      }
+    }
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+      const std::size_t list = top + child * count;
+      if (ends[child] == list) continue;
+      const std::uint32_t next = node.child[child];
+      if (next & BvhNode::kLeaf)
+        visit_rows(here, bvh_.rows(next & ~BvhNode::kLeaf), list, ends[child] - list);
+      else
+        visit(here, next, list, ends[child] - list, top + kBvhWidth * count);
+    }
+  }
+
+  void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
+    const TriangleLanes lanes(rows, light_, errors_);
+    GroupRows bounds;
+    lanes.bound(here.face, bounds);
+    const std::uint32_t all = (1u << rows.count) - 1;
+    std::uint32_t edge_on = 0;
+    bool is_prepared = false, is_kept = false;
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
+      for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
+        const std::uint32_t lane = first_lane(rest);
+        const auto& g = here.groups.rows[row].rows;
+        const ViewBox box{g[GroupRows::low_u][lane], g[GroupRows::high_u][lane], g[GroupRows::low_v][lane],
+                          g[GroupRows::high_v][lane], 0};
+        const std::uint32_t near = all & meet_triangles(bounds, box, g[GroupRows::farthest][lane]);
+        if (near == 0) continue;
+        if (!is_prepared) {
+          scratch_.triangles.emplace_back();
+          edge_on = lanes.prepare(scratch_.triangles.back());
+          is_prepared = true;
+        }
+        const std::uint32_t group = row * kRowLanes + lane;
+        const GroupTest::Result result = GroupTest(here.face, here.groups.groups[group])(scratch_.triangles.back(), near, edge_on);
+        if (result.met == 0) continue;
+        if (result.blocks != 0 && may_cover_) {
+          here.groups.live[row] &= ~(1u << lane);
+          continue;
+        }
+        is_kept = true;
+        scratch_.meetings.push_back({first_group_ + group, static_cast<std::uint32_t>(scratch_.triangles.size() - 1),
+                                     result.met & ~edge_on, result.met & edge_on});
+      }
+    }
+    if (is_prepared && !is_kept) scratch_.triangles.pop_back();
+  }
+
+  static HWY_INLINE std::uint32_t meet_triangles(const GroupRows& triangles, const ViewBox& group, float farthest) {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto row = [&](GroupRows::Row r) { return hn::Load(f, triangles.rows[r] + i); };
+      const auto in_u = hn::And(hn::Le(row(GroupRows::low_u), hn::Set(f, group.high_u)),
+                                hn::Ge(row(GroupRows::high_u), hn::Set(f, group.low_u)));
+      const auto in_v = hn::And(hn::Le(row(GroupRows::low_v), hn::Set(f, group.high_v)),
+                                hn::Ge(row(GroupRows::high_v), hn::Set(f, group.low_v)));
+      const auto before = hn::Ge(row(GroupRows::farthest), hn::Set(f, farthest));
+      result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
+    }
+    return result;
+  }
+
+  const TriangleBvh& bvh_;
+  const float* light_;
+  const ViewErrors& errors_;
+  bool may_cover_;
+  LightViewScratch& scratch_;
+  std::uint32_t first_group_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
