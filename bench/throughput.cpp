@@ -162,8 +162,8 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
 
   std::vector<Peer> peers;
   if (Status status = add_kernels(settings, scene, geometry.triangle_count(), rays, peers); !status) return status;
-  add_embree(robust, "robust", peers);
-  add_embree(fast, "fast", peers);
+  if (!getenv("NOE")) add_embree(robust, "robust", peers);
+  if (!getenv("NOE")) add_embree(fast, "fast", peers);
   for (Peer& peer : peers) {
     peer.answers.resize(rays.size());
     time_once(peer, rays, peer.answers.data(), settings.threads);  // warms up, and is not counted

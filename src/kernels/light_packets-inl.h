@@ -21,10 +21,11 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Triangles of a group, for (u, v, 1), with the bounds of its rays.
+/// Triangles of a group, for (u, v, 1). Values are raised by the bounds of their errors for the group's rays: a ray for
+/// which one is negative misses the triangle, and one for which all are above twice the bounds hits it.
 struct PacketList {
   static constexpr std::uint32_t kRoom = 256;
-  enum Row : std::uint32_t { edge, plane = 9, edge_error = 12, plane_error, kRows };
+  enum Row : std::uint32_t { edge, plane = 9, edge_sure = 12, plane_sure, kRows };
 
   alignas(64) float rows[kRows][kRoom + kRowLanes];
   alignas(64) std::uint32_t id[kRoom + kRowLanes];
@@ -44,16 +45,18 @@ struct PacketList {
       const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(some), static_cast<std::uint8_t>(some >> 8)};
       const auto keep = hn::LoadMaskBits(f, bytes);
       const auto put = [&](std::uint32_t row, RayVec x) { hn::StoreU(hn::Compress(x, keep), f, rows[row] + count); };
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        for (std::uint32_t e = 0; e < 3; ++e) {
-          const auto x = hn::Load(f, t.edge[e][axes[k]] + i);
-          put(edge + 3 * e + k, k == 2 ? hn::Mul(x, side) : x);
-        }
-        const auto x = hn::Load(f, t.plane[axes[k]] + i);
-        put(plane + k, k == 2 ? hn::Mul(x, side) : x);
+      const auto edge_error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), near, hn::Load(f, t.edge_error[0] + i));
+      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), near, hn::Load(f, t.plane_error[0] + i));
+      for (std::uint32_t e = 0; e < 3; ++e) {
+        put(edge + 3 * e, hn::Load(f, t.edge[e][axes[0]] + i));
+        put(edge + 3 * e + 1, hn::Load(f, t.edge[e][axes[1]] + i));
+        put(edge + 3 * e + 2, hn::MulAdd(hn::Load(f, t.edge[e][axes[2]] + i), side, edge_error));
       }
-      put(edge_error, hn::MulAdd(hn::Load(f, t.edge_error[1] + i), near, hn::Load(f, t.edge_error[0] + i)));
-      put(plane_error, hn::MulAdd(hn::Load(f, t.plane_error[1] + i), near, hn::Load(f, t.plane_error[0] + i)));
+      put(plane, hn::Load(f, t.plane[axes[0]] + i));
+      put(plane + 1, hn::Load(f, t.plane[axes[1]] + i));
+      put(plane + 2, hn::MulAdd(hn::Load(f, t.plane[axes[2]] + i), side, plane_error));
+      put(edge_sure, hn::Add(edge_error, edge_error));
+      put(plane_sure, hn::Add(plane_error, plane_error));
       hn::StoreU(hn::Compress(hn::Load(n, t.id + i), hn::RebindMask(n, keep)), n, id + count);
       count += static_cast<std::uint32_t>(hwy::PopCount(some));
     }
@@ -88,6 +91,7 @@ class LightPackets {
   struct Packet {
     std::uint32_t first, count, blocked;
     float u, v, half_u, half_v, base;
+    bool has_bounds;
   };
 
   void sort_meetings() {
@@ -122,28 +126,36 @@ class LightPackets {
   }
 
   void make_packets(const RayGroup& group) {
-    const RayTag f;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
+    const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
     packet_count_ = 0;
-    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    const auto su = hn::Set(f, group.slope_u), sv = hn::Set(f, group.slope_v);
     for (std::uint32_t i = 0; i < group.count; i += step) {
       Packet& p = packets_[packet_count_++];
       p.first = group.first + i;
       p.count = std::min(step, group.count - i);
       p.blocked = 0;
-      const auto use = hn::FirstN(f, p.count);
-      const auto u = hn::LoadU(f, scratch_.u.data() + p.first), v = hn::LoadU(f, scratch_.v.data() + p.first);
-      const auto w = hn::LoadU(f, scratch_.w.data() + p.first);
-      const auto least = [&](RayVec x) { return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(use, x, infinity))); };
-      const auto most = [&](RayVec x) { return hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(use, x, hn::Neg(infinity)))); };
-      const float low_u = least(u), high_u = most(u), low_v = least(v), high_v = most(v);
-      p.u = 0.5f * (low_u + high_u);
-      p.v = 0.5f * (low_v + high_v);
-      p.half_u = std::max(high_u - p.u, p.u - low_u) + 0x1p-20f;
-      p.half_v = std::max(high_v - p.v, p.v - low_v) + 0x1p-20f;
-      p.base = least(hn::NegMulAdd(sv, v, hn::NegMulAdd(su, u, w))) - 0x1p-21f * (group.nearest + std::abs(group.slope_u) + std::abs(group.slope_v));
+      p.has_bounds = false;
     }
+  }
+
+  void bound(const RayGroup& group, Packet& p) const {
+    const RayTag f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    const auto su = hn::Set(f, group.slope_u), sv = hn::Set(f, group.slope_v);
+    const auto use = hn::FirstN(f, p.count);
+    const auto u = hn::LoadU(f, scratch_.u.data() + p.first), v = hn::LoadU(f, scratch_.v.data() + p.first);
+    const auto w = hn::LoadU(f, scratch_.w.data() + p.first);
+    const auto least = [&](RayVec x) { return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(use, x, infinity))); };
+    const auto most = [&](RayVec x) {
+      return hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(use, x, hn::Neg(infinity))));
+    };
+    const float low_u = least(u), high_u = most(u), low_v = least(v), high_v = most(v);
+    p.u = 0.5f * (low_u + high_u);
+    p.v = 0.5f * (low_v + high_v);
+    p.half_u = std::max(high_u - p.u, p.u - low_u) + 0x1p-20f;
+    p.half_v = std::max(high_v - p.v, p.v - low_v) + 0x1p-20f;
+    p.base = least(hn::NegMulAdd(sv, v, hn::NegMulAdd(su, u, w))) -
+             0x1p-21f * (group.nearest + std::abs(group.slope_u) + std::abs(group.slope_v));
+    p.has_bounds = true;
   }
 
   void test_all(const RayGroup& group) {
@@ -161,32 +173,79 @@ class LightPackets {
     std::uint32_t lanes, id;
   };
 
+  /// A packet's rays against one triangle of a list.
+  struct Lanes {
+    RayVec u, v, w;
+
+    HWY_INLINE RayVec linear(const PacketList& list, std::uint32_t row, std::uint32_t i) const {
+      const RayTag f;
+      return hn::MulAdd(hn::Set(f, list.rows[row][i]), u,
+                        hn::MulAdd(hn::Set(f, list.rows[row + 1][i]), v, hn::Set(f, list.rows[row + 2][i])));
+    }
+    HWY_INLINE void test(const PacketList& list, std::uint32_t i, RayMask& hit, RayMask& open) const {
+      const RayTag f;
+      const auto inner = hn::Min(linear(list, PacketList::edge, i),
+                                 hn::Min(linear(list, PacketList::edge + 3, i), linear(list, PacketList::edge + 6, i)));
+      const auto before = hn::Sub(linear(list, PacketList::plane, i), w);
+      open = hn::Ge(hn::Min(inner, before), hn::Zero(f));
+      hit = hn::And(hn::Gt(inner, hn::Set(f, list.rows[PacketList::edge_sure][i])),
+                    hn::Gt(before, hn::Set(f, list.rows[PacketList::plane_sure][i])));
+    }
+  };
+
+  Lanes load(const Packet& p) const {
+    const RayTag f;
+    return {hn::LoadU(f, scratch_.u.data() + p.first), hn::LoadU(f, scratch_.v.data() + p.first),
+            hn::LoadU(f, scratch_.w.data() + p.first)};
+  }
+
   void test(const RayGroup& group, Packet& p, std::uint32_t all) {
     const RayTag f;
-    const auto u = hn::LoadU(f, scratch_.u.data() + p.first), v = hn::LoadU(f, scratch_.v.data() + p.first);
-    const auto w = hn::LoadU(f, scratch_.w.data() + p.first);
-    const auto linear = [&](std::uint32_t row, std::uint32_t i) {
-      return hn::MulAdd(hn::Set(f, sides_.rows[row][i]), u,
-                        hn::MulAdd(hn::Set(f, sides_.rows[row + 1][i]), v, hn::Set(f, sides_.rows[row + 2][i])));
+    const Lanes rays = load(p);
+    const auto bits_to_mask = [&](std::uint32_t bits) {
+      const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+      return hn::LoadMaskBits(f, bytes);
     };
-    pendings_ = 0;
+    auto blocked = bits_to_mask(p.blocked | ~all);
+    if (sides_.count > kFewTriangles && !p.has_bounds) bound(group, p);
     for (std::uint32_t begin = 0; begin < sides_.count; begin += kRowLanes) {
-      const std::uint32_t here = std::min(kRowLanes, sides_.count - begin);
-      std::uint32_t met = (1u << here) - 1;
+      std::uint32_t met = (1u << std::min(kRowLanes, sides_.count - begin)) - 1;
       if (sides_.count > kFewTriangles) met &= cull(group, p, begin);
-      for (; met != 0; met &= met - 1) {
-        const std::uint32_t i = begin + first_lane(met);
-        const auto inner = hn::Min(linear(PacketList::edge, i), hn::Min(linear(PacketList::edge + 3, i), linear(PacketList::edge + 6, i)));
-        const auto before = hn::Sub(linear(PacketList::plane, i), w);
-        const auto e = hn::Set(f, sides_.rows[PacketList::edge_error][i]), pe = hn::Set(f, sides_.rows[PacketList::plane_error][i]);
-        const std::uint32_t open = ray_bits(hn::And(hn::Ge(inner, hn::Neg(e)), hn::Ge(before, hn::Neg(pe)))) & all;
-        if (open == 0) continue;
-        const std::uint32_t hit = ray_bits(hn::And(hn::Gt(inner, e), hn::Gt(before, pe))) & all;
-        if ((open & ~hit & ~p.blocked) != 0) add_pending(p, open & ~hit, sides_.id[i]);
-        if (hit == 0) continue;
-        p.blocked |= plain_ ? hit : admitted(p, hit & ~p.blocked, sides_.id[i]);
+      if (met == 0) continue;
+      if (!plain_) {
+        test_each(p, rays, begin, met, all);
         if (p.blocked == all) return;
+        continue;
       }
+      auto unsure = hn::MaskFromVec(hn::Zero(f));
+      for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
+        RayMask hit, open;
+        rays.test(sides_, begin + first_lane(rest), hit, open);
+        blocked = hn::Or(blocked, hit);
+        unsure = hn::Or(unsure, hn::AndNot(hit, open));
+        if (hn::AllTrue(f, blocked)) {
+          p.blocked = all;
+          return;
+        }
+      }
+      p.blocked = ray_bits(blocked) & all;
+      if (HWY_UNLIKELY((ray_bits(unsure) & all & ~p.blocked) != 0)) {
+        test_each(p, rays, begin, met, all);
+        blocked = bits_to_mask(p.blocked | ~all);
+      }
+    }
+  }
+
+  /// Where hits need a second look: what is open is decided exactly, and skipped or see-through triangles are left out.
+  HWY_NOINLINE void test_each(Packet& p, const Lanes& rays, std::uint32_t begin, std::uint32_t met, std::uint32_t all) {
+    pendings_ = 0;
+    for (; met != 0; met &= met - 1) {
+      const std::uint32_t i = begin + first_lane(met);
+      RayMask hit, open;
+      rays.test(sides_, i, hit, open);
+      const std::uint32_t hits = ray_bits(hit) & all, unsure = ray_bits(open) & all & ~hits & ~p.blocked;
+      if (unsure != 0) add_pending(p, unsure, sides_.id[i]);
+      p.blocked |= plain_ ? hits : admitted(p, hits & ~p.blocked, sides_.id[i]);
     }
     decide(p);
   }
@@ -206,8 +265,7 @@ class LightPackets {
       const auto before = most(hn::Sub(row(PacketList::plane), hn::Set(f, group.slope_u)),
                                hn::Sub(row(PacketList::plane + 1), hn::Set(f, group.slope_v)),
                                hn::Sub(row(PacketList::plane + 2), hn::Set(f, p.base)));
-      const auto open = hn::And(hn::Ge(inner, hn::Neg(row(PacketList::edge_error))),
-                                hn::Ge(before, hn::Neg(row(PacketList::plane_error))));
+      const auto open = hn::Ge(hn::Min(inner, before), hn::Zero(f));
       met |= ray_bits(open) << i;
     }
     return met;
@@ -216,16 +274,13 @@ class LightPackets {
   /// The light is in the triangle's plane or nearly so: a ray that passes two edges on different sides misses it.
   void test_edge_on(Packet& p, std::uint32_t all) {
     const RayTag f;
-    const auto u = hn::LoadU(f, scratch_.u.data() + p.first), v = hn::LoadU(f, scratch_.v.data() + p.first);
-    const auto linear = [&](std::uint32_t row, std::uint32_t i) {
-      return hn::MulAdd(hn::Set(f, edge_on_.rows[row][i]), u,
-                        hn::MulAdd(hn::Set(f, edge_on_.rows[row + 1][i]), v, hn::Set(f, edge_on_.rows[row + 2][i])));
-    };
+    const Lanes rays = load(p);
     pendings_ = 0;
     for (std::uint32_t i = 0; i < edge_on_.count; ++i) {
-      const auto a = linear(PacketList::edge, i), b = linear(PacketList::edge + 3, i), c = linear(PacketList::edge + 6, i);
-      const auto e = hn::Set(f, edge_on_.rows[PacketList::edge_error][i]);
-      const auto apart = hn::And(hn::Gt(hn::Max(a, hn::Max(b, c)), e), hn::Lt(hn::Min(a, hn::Min(b, c)), hn::Neg(e)));
+      const auto a = rays.linear(edge_on_, PacketList::edge, i), b = rays.linear(edge_on_, PacketList::edge + 3, i);
+      const auto c = rays.linear(edge_on_, PacketList::edge + 6, i);
+      const auto sure = hn::Set(f, edge_on_.rows[PacketList::edge_sure][i]);
+      const auto apart = hn::And(hn::Gt(hn::Max(a, hn::Max(b, c)), sure), hn::Lt(hn::Min(a, hn::Min(b, c)), hn::Zero(f)));
       const std::uint32_t open = all & ~p.blocked & ~ray_bits(apart);
       if (open != 0) add_pending(p, open, edge_on_.id[i]);
     }

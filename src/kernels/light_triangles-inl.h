@@ -6,8 +6,8 @@
 // Errors, with e = 2^-24, n = |r| <= sqrt(3), starts off by s and the light by l: every rounding in a cross product is at
 // most e times the product of the lengths, so that
 //   an edge is wrong by less than |E| ((32 e |A| + 2 l) + |A| (s + 1.1 l) w),
-//   N . r by 28 e |E||F|, (N . A) w by (24 e |A| + 1.1 s) |E||F| w, for edges E and F,
-// and if |N . A| > 4 |E||F| (16 e |A| + 1.1 l), the light is on the side that its sign tells.
+//   N . r by 20 e |E||F|, (N . A) w by (13 e |A| + 1.1 s) |E||F| w, for edges E and F and the nearest vertex A,
+// and if |N . A| > 4 |E||F| (11 e |A| + 1.1 l), the light is on the side that its sign tells.
 
 #if defined(UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
@@ -89,12 +89,16 @@ class TriangleLanes {
       const LaneVec3 a = offset(0, i), b = offset(1, i), c = offset(2, i);
       const LaneVec3 ab = edge(0, 1, i), bc = edge(1, 2, i), ca = edge(2, 0, i);
       const LaneVec3 normal = cross(ab, edge(0, 2, i));
-      const auto det = dot(normal, a);
-      const auto a_length = length(a);
-      const auto farthest = hn::Max(a_length, hn::Max(length(b), length(c)));
+      // From the vertex that is nearest to the light.
+      const auto a_length = length(a), b_length = length(b), c_length = length(c);
+      const auto farthest = hn::Max(a_length, hn::Max(b_length, c_length));
+      const auto nearest = hn::Min(a_length, hn::Min(b_length, c_length));
+      const auto is_b = hn::Eq(b_length, nearest), is_c = hn::Eq(c_length, nearest);
+      const auto pick = [&](RayVec x, RayVec y, RayVec z) { return hn::IfThenElse(is_c, z, hn::IfThenElse(is_b, y, x)); };
+      const auto det = dot(normal, {pick(a.x, b.x, c.x), pick(a.y, b.y, c.y), pick(a.z, b.z, c.z)});
       const auto ab_length = length(ab), ca_length = length(ca), longest = hn::Max(hn::Max(ab_length, ca_length), length(bc));
       const auto product = hn::MulAdd(ab_length, ca_length, set(0x1p-100f));
-      const auto det_error = hn::Mul(product, hn::MulAdd(set(64 * e), a_length, set(4.5f * errors_.end)));
+      const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(4.5f * errors_.end)));
       const auto known = hn::Gt(hn::Abs(det), det_error);
       edge_on |= ~ray_bits(known) << i;
       const auto sign = hn::IfThenElseZero(known, hn::And(det, set(-0.0f)));
@@ -116,8 +120,8 @@ class TriangleLanes {
                 out.edge_error[0] + i);
       hn::Store(hn::Mul(hn::Mul(longest, farthest), set(errors_.start + 1.1f * errors_.end)), f, out.edge_error[1] + i);
       const auto ratio = hn::Mul(product, hn::Abs(inverse));
-      hn::Store(hn::Mul(ratio, set(28 * e)), f, out.plane_error[0] + i);
-      hn::Store(hn::MulAdd(ratio, hn::MulAdd(set(24 * e), a_length, set(1.1f * errors_.start)), set(8 * e)), f,
+      hn::Store(hn::Mul(ratio, set(20 * e)), f, out.plane_error[0] + i);
+      hn::Store(hn::MulAdd(ratio, hn::MulAdd(set(13 * e), nearest, set(1.1f * errors_.start)), set(8 * e)), f,
                 out.plane_error[1] + i);
     }
     std::memcpy(out.id, rows_.id, sizeof out.id);

@@ -70,6 +70,7 @@ struct LightViewScratch {
   std::size_t ray_count = 0;
   FaceGroups faces[kViewFaces];
   std::vector<LightTriangles> triangles;
+  std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
   std::vector<std::uint32_t> counts;
   std::vector<std::uint64_t> lists;

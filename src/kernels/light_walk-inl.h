@@ -10,6 +10,7 @@
 #define UMBRIX_KERNELS_LIGHT_WALK_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -93,7 +94,7 @@ class LightWalk {
 
   /// Fills the scratch's triangles and meetings.
   void walk() {
-    scratch_.triangles.clear();
+    scratch_.triangle_count = 0;
     scratch_.meetings.clear();
     first_group_ = 0;
     for (std::uint32_t number = 0; number < kViewFaces; ++number) {
@@ -116,18 +117,7 @@ class LightWalk {
     LightViewScratch::FaceGroups& groups;
   };
 
-  static std::uint32_t spread(std::uint32_t x) {  // a zero before each of 16 bits
-    x = (x | x << 8) & 0x00FF00FFu;
-    x = (x | x << 4) & 0x0F0F0F0Fu;
-    x = (x | x << 2) & 0x33333333u;
-    return (x | x << 1) & 0x55555555u;
-  }
-  static std::uint32_t place(const RayGroup& g) {
-    const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp((x + 1) * 32767.5f, 0.0f, 65535.0f)); };
-    return spread(cell(g.u)) | spread(cell(g.v)) << 1;
-  }
-
-  /// Brings groups that are near each other side by side, with the margins that all rays have together.
+  /// Lays groups side by side in the order in which they came, with the margins that all rays have together.
   void lay_out(LightViewScratch::FaceGroups& face) {
     for (RayGroup& g : face.groups) {
       g.half_u += 0x1p-20f + 2 * errors_.start * g.nearest;
@@ -137,7 +127,6 @@ class LightWalk {
       g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end) * g.nearest);
       g.nearest *= 1 + off;
     }
-    std::sort(face.groups.begin(), face.groups.end(), [](const RayGroup& a, const RayGroup& b) { return place(a) < place(b); });
     const std::size_t rows = (face.groups.size() + kRowLanes - 1) / kRowLanes;
     face.rows.resize(rows);
     face.live.assign(rows, 0);
@@ -218,6 +207,8 @@ class LightWalk {
         if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
       }
     }
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child)
+      if (ends[child] != top + child * count && (node.child[child] & BvhNode::kLeaf) != 0) prefetch(bvh_.rows(node.child[child] & ~BvhNode::kLeaf));
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
       const std::size_t list = top + child * count;
       if (ends[child] == list) continue;
@@ -227,6 +218,10 @@ class LightWalk {
       else
         visit(here, next, list, ends[child] - list, top + kBvhWidth * count);
     }
+  }
+
+  static void prefetch(const TriangleRows& rows) {
+    for (std::size_t line = 0; line < sizeof rows; line += 64) hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
@@ -246,23 +241,23 @@ class LightWalk {
         const std::uint32_t near = all & meet_triangles(bounds, box, g[GroupRows::farthest][lane]);
         if (near == 0) continue;
         if (!is_prepared) {
-          scratch_.triangles.emplace_back();
-          edge_on = lanes.prepare(scratch_.triangles.back());
+          if (scratch_.triangles.size() <= scratch_.triangle_count) scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
+          edge_on = lanes.prepare(scratch_.triangles[scratch_.triangle_count]);
           is_prepared = true;
         }
         const std::uint32_t group = row * kRowLanes + lane;
-        const GroupTest::Result result = GroupTest(here.face, here.groups.groups[group])(scratch_.triangles.back(), near, edge_on);
+        const GroupTest::Result result = GroupTest(here.face, here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
         if (result.met == 0) continue;
         if (result.blocks != 0 && may_cover_) {
           here.groups.live[row] &= ~(1u << lane);
           continue;
         }
         is_kept = true;
-        scratch_.meetings.push_back({first_group_ + group, static_cast<std::uint32_t>(scratch_.triangles.size() - 1),
+        scratch_.meetings.push_back({first_group_ + group, scratch_.triangle_count,
                                      result.met & ~edge_on, result.met & edge_on});
       }
     }
-    if (is_prepared && !is_kept) scratch_.triangles.pop_back();
+    if (is_kept) ++scratch_.triangle_count;
   }
 
   static HWY_INLINE std::uint32_t meet_triangles(const GroupRows& triangles, const ViewBox& group, float farthest) {
