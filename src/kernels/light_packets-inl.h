@@ -33,19 +33,19 @@ struct PacketList {
 
   bool is_full() const { return count > kRoom - kRowLanes; }
 
-  void append(const LightTriangles& t, std::uint32_t lanes, const Face& face, float nearest) {
+  void append(const LightTriangles& t, std::uint32_t lanes, const Face& face, const RayGroup& group) {
     const RayTag f;
     const hn::RebindToUnsigned<RayTag> n;
     const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
     const std::uint32_t axes[3] = {face.u_axis(), face.v_axis(), face.axis};
-    const auto side = hn::Set(f, face.sign), near = hn::Set(f, nearest);
+    const auto side = hn::Set(f, face.sign), near = hn::Set(f, group.nearest), far = hn::Set(f, 1 / group.farthest);
     for (std::uint32_t i = 0; i < kRowLanes; i += step) {
       const std::uint32_t some = lanes >> i & ((1u << step) - 1);
       if (some == 0) continue;
       const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(some), static_cast<std::uint8_t>(some >> 8)};
       const auto keep = hn::LoadMaskBits(f, bytes);
       const auto put = [&](std::uint32_t row, RayVec x) { hn::StoreU(hn::Compress(x, keep), f, rows[row] + count); };
-      const auto edge_error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), near, hn::Load(f, t.edge_error[0] + i));
+      const auto edge_error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), far, hn::Load(f, t.edge_error[0] + i));
       const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), near, hn::Load(f, t.plane_error[0] + i));
       for (std::uint32_t e = 0; e < 3; ++e) {
         put(edge + 3 * e, hn::Load(f, t.edge[e][axes[0]] + i));
@@ -115,8 +115,8 @@ class LightPackets {
         for (std::size_t line = 0; line < sizeof(LightTriangles); line += 64) hwy::Prefetch(next + line);
       }
       const LightTriangles& t = scratch_.triangles[m.triangles];
-      if (m.lanes != 0) sides_.append(t, m.lanes, face, group.nearest);
-      if (m.edge_on != 0) edge_on_.append(t, m.edge_on, face, group.nearest);
+      if (m.lanes != 0) sides_.append(t, m.lanes, face, group);
+      if (m.edge_on != 0) edge_on_.append(t, m.edge_on, face, group);
       if (sides_.is_full() || edge_on_.is_full()) test_all(group);
     }
     test_all(group);

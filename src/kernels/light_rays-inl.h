@@ -62,9 +62,15 @@ struct Rectangle {
   float area() const { return (high_u - low_u) * (high_v - low_v); }
 };
 
-/// How far true segments may be from what is computed.
+/// How far the ends of true segments may be from what is computed, over the depth of the start; and at most, anywhere.
 struct ViewErrors {
-  float start = 0x1p-60f, end = 0x1p-60f;
+  float start = 0, end = 0;
+  float most = 0x1p-60f;
+};
+
+/// Where the rays end, as a sum: offsets from it are rounded as if it were a float.
+struct LightPoint {
+  float high[3] = {}, low[3] = {};
 };
 
 /// Reads rays, and sorts them into groups.
@@ -96,20 +102,32 @@ class LightRays {
     return true;
   }
 
-  const float* light() const { return light_; }
+  const LightPoint& light() const { return light_; }
   const ViewErrors& errors() const { return errors_; }
 
  private:
   static constexpr std::uint32_t kFewestRays = 32;
   static constexpr float kThinner = 0.75f;
 
+  /// The end of the shortest of some rays: the nearer the start, the less its direction's rounding moves the end.
   void find_light() {
-    for (std::size_t i = 0; i < rays_.count; ++i) {
-      const Ray& r = rays_[i];
-      for (int k = 0; k < 3; ++k) light_[k] = (r.origin[k] + r.direction[k] * r.tmax) * scale_;
-      if (std::isfinite(light_[0]) && std::isfinite(light_[1]) && std::isfinite(light_[2])) return;
+    constexpr std::size_t kSamples = 64;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t sample = 0; sample < kSamples; ++sample) {
+      const Ray& r = rays_[sample * rays_.count / kSamples];
+      double end[3], length = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double along = double{r.direction[k]} * double{r.tmax};
+        end[k] = (r.origin[k] + along) * double{scale_};
+        length += along * along;
+      }
+      if (!(length < shortest) || !(length > 0)) continue;
+      shortest = length;
+      for (int k = 0; k < 3; ++k) {
+        light_.high[k] = static_cast<float>(end[k]);
+        light_.low[k] = static_cast<float>(end[k] - double{light_.high[k]});
+      }
     }
-    for (float& x : light_) x = 0;
   }
 
   void read_run(std::size_t begin, std::uint32_t count) {
@@ -158,25 +176,24 @@ class LightRays {
     // What may be a denormal, or made one: the host may flush them.
     const auto tiny = hn::Set(f, 0x1p-90f), zero = hn::Zero(f), scale = hn::Set(f, scale_);
     auto good = hn::Or(hn::Gt(hn::Abs(tmin), tiny), hn::Eq(tmin, zero));
-    auto off = zero, reach = zero, start_reach = zero, direction = zero;
+    auto off = zero, start_reach = zero, direction = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
       good = hn::And(good, hn::Or(hn::Gt(hn::Abs(o[k]), tiny), hn::Eq(o[k], zero)));
       good = hn::And(good, hn::Or(hn::Gt(hn::Abs(d[k]), tiny), hn::Eq(d[k], zero)));
       direction = hn::Max(direction, hn::Abs(d[k]));
-      const auto to_start = hn::Mul(d[k], tmin), to_end = hn::Mul(d[k], tmax);
-      const auto start = hn::Mul(hn::Add(o[k], to_start), scale), end = hn::Mul(hn::Add(o[k], to_end), scale);
-      const auto light = hn::Set(f, light_[k]);
-      off = hn::Max(off, hn::Abs(hn::Sub(end, light)));
-      reach = hn::Max(reach, hn::Add(hn::Abs(o[k]), hn::Abs(to_end)));
-      start_reach = hn::Max(start_reach, hn::Add(hn::Abs(o[k]), hn::Abs(to_start)));
-      offset[k] = hn::Sub(start, light);
+      const auto origin = hn::Sub(hn::MulSub(o[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
+      const auto to_start = hn::Mul(hn::Mul(d[k], tmin), scale), to_end = hn::Mul(hn::Mul(d[k], tmax), scale);
+      off = hn::Max(off, hn::Abs(hn::Add(origin, to_end)));
+      start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
+      offset[k] = hn::Add(origin, to_start);
     }
     const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
     const auto depth = hn::Max(ax, hn::Max(ay, az));
-    reach = hn::MulAdd(hn::Mul(reach, scale), hn::Set(f, 0x1p-22f), off);  // with the rounding of the end
+    const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-21f), off);  // with the rounding of the end
     // Only where the end is well away from the start, compared with how far it is off. NaN is never good.
-    good = hn::And(good, hn::And(hn::Lt(hn::Mul(reach, hn::Set(f, 0x1p17f)), depth), hn::Lt(depth, hn::Set(f, 0x1p20f))));
+    good = hn::And(good, hn::And(hn::Lt(hn::Mul(reach, hn::Set(f, 0x1p17f)), depth),
+                                 hn::And(hn::Gt(depth, hn::Set(f, 0x1p-30f)), hn::Lt(depth, hn::Set(f, 0x1p20f)))));
     good = hn::And(good, hn::And(hn::Lt(tmin, tmax), hn::Gt(direction, zero)));
     const auto present = hn::FirstN(f, here);
     const auto keep = hn::And(good, present);
@@ -184,11 +201,16 @@ class LightRays {
       scratch_.odd.push_back(static_cast<std::uint32_t>(first) + first_lane(rest));
     if (hn::AllFalse(f, keep)) return;
 
-    errors_.end = std::max(errors_.end, hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElseZero(keep, reach))));
+    const auto most = [&](float x, RayVec y) {
+      return std::max(x, hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElseZero(keep, y))));
+    };
+    errors_.end = most(errors_.end, hn::Div(reach, depth));
+    errors_.most = most(errors_.most, reach);
     const auto moved = hn::AndNot(hn::Eq(tmin, zero), keep);
     if (!hn::AllFalse(f, moved)) {
-      const auto error = hn::Mul(hn::Mul(start_reach, scale), hn::Set(f, 0x1p-22f));
-      errors_.start = std::max(errors_.start, hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElseZero(moved, error))));
+      const auto error = hn::IfThenElseZero(moved, hn::Mul(start_reach, hn::Set(f, 0x1p-22f)));
+      errors_.start = most(errors_.start, hn::Div(error, depth));
+      errors_.most = most(errors_.most, hn::Add(reach, error));
     }
     const auto is_x = hn::Ge(ax, hn::Max(ay, az)), is_y = hn::Ge(ay, az);
     const auto main = hn::IfThenElse(is_x, offset[0], hn::IfThenElse(is_y, offset[1], offset[2]));
@@ -373,7 +395,7 @@ class LightRays {
   RaySpan rays_;
   LightViewScratch& scratch_;
   float scale_;
-  float light_[3] = {};
+  LightPoint light_;
   ViewErrors errors_;
   RayRun run_;
   FaceRun part_, above_;

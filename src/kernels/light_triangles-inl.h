@@ -3,11 +3,11 @@
 // axes, m its depth, w = 1/m) and N the triangle's normal:
 //   the line from the start to the light passes A and B on the side of (A x (B - A)) . r,
 //   and the triangle's plane lies before the start if N . r / (N . A) > w.
-// Errors, with e = 2^-24, n = |r| <= sqrt(3), starts off by s and the light by l: every rounding in a cross product is at
-// most e times the product of the lengths, so that
-//   an edge is wrong by less than |E| ((32 e |A| + 2 l) + |A| (s + 1.1 l) w),
-//   N . r by 20 e |E||F|, (N . A) w by (13 e |A| + 1.1 s) |E||F| w, for edges E and F and the nearest vertex A,
-// and if |N . A| > 4 |E||F| (11 e |A| + 1.1 l), the light is on the side that its sign tells.
+// Offsets and r are rounded by up to 2 and 6 units e = 2^-24, |r| <= sqrt(3), and the permanent of three vectors is at
+// most 2/sqrt(3) of the product of their lengths. With starts off by s m and ends by l m,
+//   an edge is wrong by less than |E| (|A| (32 e + s + 1.1 l) + 2 l m),
+//   N . r by (24 e + 1.1 s) |E||F|, (N . A) w by 14 e |A| |E||F| w, for edges E and F and the nearest vertex A,
+// and if |N . A| > 4 |E||F| (11 e |A| + 1.1 l m), the light is on the side that its sign tells.
 
 #if defined(UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
@@ -45,14 +45,14 @@ HWY_INLINE RayVec length(const LaneVec3& a) {
 /// Sixteen triangles and one light.
 class TriangleLanes {
  public:
-  TriangleLanes(const TriangleRows& rows, const float* light, const ViewErrors& errors)
+  TriangleLanes(const TriangleRows& rows, const LightPoint& light, const ViewErrors& errors)
       : rows_(rows), light_(light), errors_(errors) {}
 
   /// Rectangles and nearest points on a face: a triangle that spans it or comes too near has no bounds.
   void bound(const Face& face, GroupRows& out) const {
     const RayTag f;
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    const auto off = hn::Set(f, errors_.end + errors_.start);
+    const auto off = hn::Set(f, errors_.most);
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       auto low_u = infinity, low_v = infinity, high_u = hn::Neg(infinity), high_v = high_u, least = infinity;
       for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
@@ -88,17 +88,24 @@ class TriangleLanes {
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       const LaneVec3 a = offset(0, i), b = offset(1, i), c = offset(2, i);
       const LaneVec3 ab = edge(0, 1, i), bc = edge(1, 2, i), ca = edge(2, 0, i);
-      const LaneVec3 normal = cross(ab, edge(0, 2, i));
       // From the vertex that is nearest to the light.
       const auto a_length = length(a), b_length = length(b), c_length = length(c);
       const auto farthest = hn::Max(a_length, hn::Max(b_length, c_length));
       const auto nearest = hn::Min(a_length, hn::Min(b_length, c_length));
       const auto is_b = hn::Eq(b_length, nearest), is_c = hn::Eq(c_length, nearest);
-      const auto pick = [&](RayVec x, RayVec y, RayVec z) { return hn::IfThenElse(is_c, z, hn::IfThenElse(is_b, y, x)); };
-      const auto det = dot(normal, {pick(a.x, b.x, c.x), pick(a.y, b.y, c.y), pick(a.z, b.z, c.z)});
-      const auto ab_length = length(ab), ca_length = length(ca), longest = hn::Max(hn::Max(ab_length, ca_length), length(bc));
-      const auto product = hn::MulAdd(ab_length, ca_length, set(0x1p-100f));
-      const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(4.5f * errors_.end)));
+      const auto pick = [](RayMask second, RayMask third, RayVec x, RayVec y, RayVec z) {
+        return hn::IfThenElse(third, z, hn::IfThenElse(second, y, x));
+      };
+      // From the two shorter edges: the product of their lengths is nearest to twice the area.
+      const auto ab_length = length(ab), bc_length = length(bc), ca_length = length(ca);
+      const auto longest = hn::Max(hn::Max(ab_length, ca_length), bc_length);
+      const auto no_bc = hn::Eq(bc_length, longest), no_ca = hn::Eq(ca_length, longest);
+      const LaneVec3 first{pick(no_bc, no_ca, bc.x, ca.x, ab.x), pick(no_bc, no_ca, bc.y, ca.y, ab.y), pick(no_bc, no_ca, bc.z, ca.z, ab.z)};
+      const LaneVec3 second{pick(no_bc, no_ca, ca.x, ab.x, bc.x), pick(no_bc, no_ca, ca.y, ab.y, bc.y), pick(no_bc, no_ca, ca.z, ab.z, bc.z)};
+      const LaneVec3 normal = cross(first, second);
+      const auto det = dot(normal, {pick(is_b, is_c, a.x, b.x, c.x), pick(is_b, is_c, a.y, b.y, c.y), pick(is_b, is_c, a.z, b.z, c.z)});
+      const auto product = hn::MulAdd(pick(no_bc, no_ca, bc_length, ca_length, ab_length), pick(no_bc, no_ca, ca_length, ab_length, bc_length), set(0x1p-100f));
+      const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(4.5f * errors_.most)));
       const auto known = hn::Gt(hn::Abs(det), det_error);
       edge_on |= ~ray_bits(known) << i;
       const auto sign = hn::IfThenElseZero(known, hn::And(det, set(-0.0f)));
@@ -116,13 +123,12 @@ class TriangleLanes {
       plane(1, normal.y);
       plane(2, normal.z);
       const auto tiny = set(0x1p-100f);
-      hn::Store(hn::MulAdd(longest, hn::MulAdd(set(32 * e), farthest, set(2 * errors_.end)), tiny), f,
+      hn::Store(hn::MulAdd(hn::Mul(longest, farthest), set(32 * e + errors_.start + 1.1f * errors_.end), tiny), f,
                 out.edge_error[0] + i);
-      hn::Store(hn::Mul(hn::Mul(longest, farthest), set(errors_.start + 1.1f * errors_.end)), f, out.edge_error[1] + i);
+      hn::Store(hn::Mul(longest, set(2 * errors_.end)), f, out.edge_error[1] + i);
       const auto ratio = hn::Mul(product, hn::Abs(inverse));
-      hn::Store(hn::Mul(ratio, set(20 * e)), f, out.plane_error[0] + i);
-      hn::Store(hn::MulAdd(ratio, hn::MulAdd(set(13 * e), nearest, set(1.1f * errors_.start)), set(8 * e)), f,
-                out.plane_error[1] + i);
+      hn::Store(hn::Mul(ratio, set(24 * e + 1.1f * errors_.start)), f, out.plane_error[0] + i);
+      hn::Store(hn::MulAdd(ratio, hn::Mul(set(14 * e), nearest), set(8 * e)), f, out.plane_error[1] + i);
     }
     std::memcpy(out.id, rows_.id, sizeof out.id);
     return edge_on;
@@ -133,7 +139,8 @@ class TriangleLanes {
     return hn::Load(RayTag(), rows_.v[vertex][axis] + i);
   }
   RayVec offset(std::uint32_t vertex, std::uint32_t axis, std::uint32_t i) const {
-    return hn::Sub(row(vertex, axis, i), hn::Set(RayTag(), light_[axis]));
+    return hn::Sub(hn::Sub(row(vertex, axis, i), hn::Set(RayTag(), light_.high[axis])),
+                   hn::Set(RayTag(), light_.low[axis]));
   }
   LaneVec3 offset(std::uint32_t vertex, std::uint32_t i) const {
     return {offset(vertex, 0, i), offset(vertex, 1, i), offset(vertex, 2, i)};
@@ -144,7 +151,7 @@ class TriangleLanes {
   }
 
   const TriangleRows& rows_;
-  const float* light_;
+  const LightPoint& light_;
   const ViewErrors& errors_;
 };
 

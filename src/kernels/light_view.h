@@ -44,8 +44,8 @@ struct alignas(64) GroupRows {
 struct alignas(64) LightTriangles {
   float edge[3][3][kRowLanes];  ///< by edge and axis; r is inside of an edge where its product with it is positive
   float plane[3][kRowLanes];    ///< its product with r is one over the plane's depth at r
-  float edge_error[2][kRowLanes];   ///< of an edge's product: [0] + [1] w
-  float plane_error[2][kRowLanes];  ///< of the plane's product less w: the same
+  float edge_error[2][kRowLanes];   ///< of an edge's product: [0] + [1] / w
+  float plane_error[2][kRowLanes];  ///< of the plane's product less w: [0] + [1] w
   std::uint32_t id[kRowLanes];
 };
 

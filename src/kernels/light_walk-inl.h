@@ -47,7 +47,7 @@ class GroupTest {
     for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
       const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
       if (some == 0) continue;
-      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), nearest, hn::Load(f, t.edge_error[0] + i));
+      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, 1 / group_.farthest), hn::Load(f, t.edge_error[0] + i));
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
       auto least_low = least_high;
       for (const auto& edge : t.edge) {
@@ -88,7 +88,7 @@ class GroupTest {
 /// Finds what the groups' rays may meet.
 class LightWalk {
  public:
-  LightWalk(const TriangleBvh& bvh, const float* light, const ViewErrors& errors, bool may_cover,
+  LightWalk(const TriangleBvh& bvh, const LightPoint& light, const ViewErrors& errors, bool may_cover,
             LightViewScratch& scratch)
       : bvh_(bvh), light_(light), errors_(errors), may_cover_(may_cover), scratch_(scratch) {}
 
@@ -120,11 +120,11 @@ class LightWalk {
   /// Lays groups side by side in the order in which they came, with the margins that all rays have together.
   void lay_out(LightViewScratch::FaceGroups& face) {
     for (RayGroup& g : face.groups) {
-      g.half_u += 0x1p-20f + 2 * errors_.start * g.nearest;
-      g.half_v += 0x1p-20f + 2 * errors_.start * g.nearest;
-      const float off = 0x1p-21f + errors_.start * g.nearest;
+      g.half_u += 0x1p-20f + 2 * errors_.start;
+      g.half_v += 0x1p-20f + 2 * errors_.start;
+      const float off = 0x1p-21f + errors_.start;
       g.base -= off * (g.nearest + std::abs(g.slope_u) + std::abs(g.slope_v));
-      g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end) * g.nearest);
+      g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end));
       g.nearest *= 1 + off;
     }
     const std::size_t rows = (face.groups.size() + kRowLanes - 1) / kRowLanes;
@@ -146,9 +146,9 @@ class LightWalk {
 
   /// False if nothing of the box is on the face's side.
   bool project(const BvhNode& node, std::uint32_t child, const Face& face, ViewBox& out) const {
-    const auto low = [&](std::uint32_t axis) { return node.lower[axis][child] - light_[axis]; };
-    const auto high = [&](std::uint32_t axis) { return node.upper[axis][child] - light_[axis]; };
-    const float off = errors_.start + errors_.end;
+    const auto low = [&](std::uint32_t axis) { return node.lower[axis][child] - light_.high[axis] - light_.low[axis]; };
+    const auto high = [&](std::uint32_t axis) { return node.upper[axis][child] - light_.high[axis] - light_.low[axis]; };
+    const float off = errors_.most;
     const float near_m = face.sign > 0 ? low(face.axis) : -high(face.axis);
     const float far_m = (face.sign > 0 ? high(face.axis) : -low(face.axis)) + 4 * off;
     if (!(far_m > 0)) return false;
@@ -276,7 +276,7 @@ class LightWalk {
   }
 
   const TriangleBvh& bvh_;
-  const float* light_;
+  const LightPoint& light_;
   const ViewErrors& errors_;
   bool may_cover_;
   LightViewScratch& scratch_;
