@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of rays against the triangles that their group may meet, as the light sees both: each triangle takes four
-// linear functions of a ray's place in the view. What their bounds leave open goes to the exact test.
+// Groups of rays against the triangles that they may meet, as the light sees both: each triangle takes four linear
+// functions of a ray's place in the view. What their bounds leave open goes to the exact test.
 
 #if defined(UMBRIX_KERNELS_LIGHT_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_PACKETS_INL_H_
@@ -21,46 +21,55 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Triangles of a group, for (u, v, 1). Values are raised by the bounds of their errors for the group's rays: a ray for
-/// which one is negative misses the triangle, and one for which all are above twice the bounds hits it.
-struct PacketList {
-  static constexpr std::uint32_t kRoom = 256;
-  enum Row : std::uint32_t { edge, plane = 9, edge_sure = 12, plane_sure, kRows };
+inline RayMask lane_mask(std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
+  return hn::LoadMaskBits(RayTag(), bytes);
+}
 
-  alignas(64) float rows[kRows][kRoom + kRowLanes];
-  alignas(64) std::uint32_t id[kRoom + kRowLanes];
-  std::uint32_t count = 0;
+/// Some rays of a group side by side.
+struct Packet {
+  RayVec u, v, w;
+  RayMask blocked, unsure;
+  std::uint32_t first, count;
+};
 
-  bool is_full() const { return count > kRoom - kRowLanes; }
-
-  void append(const LightTriangles& t, std::uint32_t lanes, const Face& face, const RayGroup& group) {
+/// One triangle, in all lanes.
+class TriangleTest {
+ public:
+  HWY_INLINE TriangleTest(const LightTriangles& t, std::uint32_t lane, const RayGroup& group) {
     const RayTag f;
-    const hn::RebindToUnsigned<RayTag> n;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
-    const std::uint32_t axes[3] = {face.u_axis(), face.v_axis(), face.axis};
-    const auto side = hn::Set(f, face.sign), near = hn::Set(f, group.nearest), far = hn::Set(f, 1 / group.farthest);
-    for (std::uint32_t i = 0; i < kRowLanes; i += step) {
-      const std::uint32_t some = lanes >> i & ((1u << step) - 1);
-      if (some == 0) continue;
-      const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(some), static_cast<std::uint8_t>(some >> 8)};
-      const auto keep = hn::LoadMaskBits(f, bytes);
-      const auto put = [&](std::uint32_t row, RayVec x) { hn::StoreU(hn::Compress(x, keep), f, rows[row] + count); };
-      const auto edge_error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), far, hn::Load(f, t.edge_error[0] + i));
-      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), near, hn::Load(f, t.plane_error[0] + i));
-      for (std::uint32_t e = 0; e < 3; ++e) {
-        put(edge + 3 * e, hn::Load(f, t.edge[e][axes[0]] + i));
-        put(edge + 3 * e + 1, hn::Load(f, t.edge[e][axes[1]] + i));
-        put(edge + 3 * e + 2, hn::MulAdd(hn::Load(f, t.edge[e][axes[2]] + i), side, edge_error));
-      }
-      put(plane, hn::Load(f, t.plane[axes[0]] + i));
-      put(plane + 1, hn::Load(f, t.plane[axes[1]] + i));
-      put(plane + 2, hn::MulAdd(hn::Load(f, t.plane[axes[2]] + i), side, plane_error));
-      put(edge_sure, hn::Add(edge_error, edge_error));
-      put(plane_sure, hn::Add(plane_error, plane_error));
-      hn::StoreU(hn::Compress(hn::Load(n, t.id + i), hn::RebindMask(n, keep)), n, id + count);
-      count += static_cast<std::uint32_t>(hwy::PopCount(some));
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      for (std::uint32_t e = 0; e < 3; ++e) edge_[e][k] = hn::Set(f, t.edge[e][k][lane]);
+      plane_[k] = hn::Set(f, t.plane[k][lane]);
     }
+    edge_error_ = hn::Set(f, t.edge_error[0][lane] + t.edge_error[1][lane] * group.reach);
+    plane_error_ = hn::Set(f, t.plane_error[0][lane] + t.plane_error[1][lane] * group.nearest);
   }
+
+  /// Lanes that surely hit, and those that may.
+  HWY_INLINE void operator()(const Packet& p, RayMask& hit, RayMask& open) const {
+    const auto inner = hn::Min(edge(0, p), hn::Min(edge(1, p), edge(2, p)));
+    const auto before = hn::Sub(linear(plane_, p), p.w);
+    hit = hn::And(hn::Gt(inner, edge_error_), hn::Gt(before, plane_error_));
+    open = hn::And(hn::Ge(inner, hn::Neg(edge_error_)), hn::Ge(before, hn::Neg(plane_error_)));
+  }
+
+  /// For a plane that the light is too near to: lanes that may hit, as they pass no two edges on different sides.
+  RayMask edge_on(const Packet& p) const {
+    const auto a = edge(0, p), b = edge(1, p), c = edge(2, p);
+    const auto apart = hn::And(hn::Gt(hn::Max(a, hn::Max(b, c)), edge_error_),
+                               hn::Lt(hn::Min(a, hn::Min(b, c)), hn::Neg(edge_error_)));
+    return hn::Not(apart);
+  }
+
+ private:
+  static HWY_INLINE RayVec linear(const RayVec (&c)[3], const Packet& p) {
+    return hn::MulAdd(c[0], p.u, hn::MulAdd(c[1], p.v, c[2]));
+  }
+  HWY_INLINE RayVec edge(std::uint32_t k, const Packet& p) const { return linear(edge_[k], p); }
+
+  RayVec edge_[3][3], plane_[3];
+  RayVec edge_error_, plane_error_;
 };
 
 class LightPackets {
@@ -79,20 +88,20 @@ class LightPackets {
         if ((groups.live[i / kRowLanes] >> i % kRowLanes & 1) == 0) {
           for (std::uint32_t k = group.first; k < group.first + group.count; ++k) rays_.out[scratch_.name[k]] = 1;
         } else if (scratch_.counts[number] != scratch_.counts[number + 1]) {
-          trace_group(Face(face), group, scratch_.counts[number], scratch_.counts[number + 1]);
+          trace_group(group, scratch_.counts[number], scratch_.counts[number + 1]);
         }
       }
     }
   }
 
- private:
-  static constexpr std::uint32_t kFewTriangles = 3;
+  std::uint64_t exact_ = 0;
 
-  struct Packet {
-    std::uint32_t first, count, blocked;
-    float u, v, half_u, half_v, base;
-    bool has_bounds;
-  };
+ private:
+#if HWY_TARGET == HWY_SCALAR
+  static constexpr std::uint32_t kMostPackets = kGroupRays;
+#else
+  static constexpr std::uint32_t kMostPackets = kGroupRays / 4;
+#endif
 
   void sort_meetings() {
     std::size_t groups = 0;
@@ -105,205 +114,100 @@ class LightPackets {
     for (const Meeting& m : scratch_.meetings) scratch_.sorted[counts[m.group + 1]++] = m;
   }
 
-  void trace_group(const Face& face, const RayGroup& group, std::uint32_t first, std::uint32_t last) {
-    make_packets(group);
-    sides_.count = edge_on_.count = 0;
+  void trace_group(const RayGroup& group, std::uint32_t first, std::uint32_t last) {
+    Packet packets[kMostPackets];
+    const std::uint32_t count = load(group, packets);
     for (std::uint32_t i = first; i < last; ++i) {
       const Meeting& m = scratch_.sorted[i];
-      if (i + 4 < last) {
-        const char* next = reinterpret_cast<const char*>(&scratch_.triangles[scratch_.sorted[i + 4].triangles]);
-        for (std::size_t line = 0; line < sizeof(LightTriangles); line += 64) hwy::Prefetch(next + line);
-      }
-      const LightTriangles& t = scratch_.triangles[m.triangles];
-      if (m.lanes != 0) sides_.append(t, m.lanes, face, group);
-      if (m.edge_on != 0) edge_on_.append(t, m.edge_on, face, group);
-      if (sides_.is_full() || edge_on_.is_full()) test_all(group);
-    }
-    test_all(group);
-    for (std::uint32_t p = 0; p < packet_count_; ++p)
-      for (std::uint32_t rest = packets_[p].blocked; rest != 0; rest &= rest - 1)
-        rays_.out[scratch_.name[packets_[p].first + first_lane(rest)]] = 1;
-  }
-
-  void make_packets(const RayGroup& group) {
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
-    packet_count_ = 0;
-    for (std::uint32_t i = 0; i < group.count; i += step) {
-      Packet& p = packets_[packet_count_++];
-      p.first = group.first + i;
-      p.count = std::min(step, group.count - i);
-      p.blocked = 0;
-      p.has_bounds = false;
-    }
-  }
-
-  void bound(const RayGroup& group, Packet& p) const {
-    const RayTag f;
-    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    const auto su = hn::Set(f, group.slope_u), sv = hn::Set(f, group.slope_v);
-    const auto use = hn::FirstN(f, p.count);
-    const auto u = hn::LoadU(f, scratch_.u.data() + p.first), v = hn::LoadU(f, scratch_.v.data() + p.first);
-    const auto w = hn::LoadU(f, scratch_.w.data() + p.first);
-    const auto least = [&](RayVec x) { return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(use, x, infinity))); };
-    const auto most = [&](RayVec x) {
-      return hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(use, x, hn::Neg(infinity))));
-    };
-    const float low_u = least(u), high_u = most(u), low_v = least(v), high_v = most(v);
-    p.u = 0.5f * (low_u + high_u);
-    p.v = 0.5f * (low_v + high_v);
-    p.half_u = std::max(high_u - p.u, p.u - low_u) + 0x1p-20f;
-    p.half_v = std::max(high_v - p.v, p.v - low_v) + 0x1p-20f;
-    p.base = least(hn::NegMulAdd(sv, v, hn::NegMulAdd(su, u, w))) -
-             0x1p-21f * (group.nearest + std::abs(group.slope_u) + std::abs(group.slope_v));
-    p.has_bounds = true;
-  }
-
-  void test_all(const RayGroup& group) {
-    for (std::uint32_t k = 0; k < packet_count_; ++k) {
-      Packet& p = packets_[k];
-      const std::uint32_t all = static_cast<std::uint32_t>((std::uint64_t{1} << p.count) - 1);
-      if (p.blocked == all) continue;
-      test(group, p, all);
-      if (edge_on_.count != 0 && p.blocked != all) test_edge_on(p, all);
-    }
-    sides_.count = edge_on_.count = 0;
-  }
-
-  struct Pending {
-    std::uint32_t lanes, id;
-  };
-
-  /// A packet's rays against one triangle of a list.
-  struct Lanes {
-    RayVec u, v, w;
-
-    HWY_INLINE RayVec linear(const PacketList& list, std::uint32_t row, std::uint32_t i) const {
-      const RayTag f;
-      return hn::MulAdd(hn::Set(f, list.rows[row][i]), u,
-                        hn::MulAdd(hn::Set(f, list.rows[row + 1][i]), v, hn::Set(f, list.rows[row + 2][i])));
-    }
-    HWY_INLINE void test(const PacketList& list, std::uint32_t i, RayMask& hit, RayMask& open) const {
-      const RayTag f;
-      const auto inner = hn::Min(linear(list, PacketList::edge, i),
-                                 hn::Min(linear(list, PacketList::edge + 3, i), linear(list, PacketList::edge + 6, i)));
-      const auto before = hn::Sub(linear(list, PacketList::plane, i), w);
-      open = hn::Ge(hn::Min(inner, before), hn::Zero(f));
-      hit = hn::And(hn::Gt(inner, hn::Set(f, list.rows[PacketList::edge_sure][i])),
-                    hn::Gt(before, hn::Set(f, list.rows[PacketList::plane_sure][i])));
-    }
-  };
-
-  Lanes load(const Packet& p) const {
-    const RayTag f;
-    return {hn::LoadU(f, scratch_.u.data() + p.first), hn::LoadU(f, scratch_.v.data() + p.first),
-            hn::LoadU(f, scratch_.w.data() + p.first)};
-  }
-
-  void test(const RayGroup& group, Packet& p, std::uint32_t all) {
-    const RayTag f;
-    const Lanes rays = load(p);
-    const auto bits_to_mask = [&](std::uint32_t bits) {
-      const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
-      return hn::LoadMaskBits(f, bytes);
-    };
-    auto blocked = bits_to_mask(p.blocked | ~all);
-    if (sides_.count > kFewTriangles && !p.has_bounds) bound(group, p);
-    for (std::uint32_t begin = 0; begin < sides_.count; begin += kRowLanes) {
-      std::uint32_t met = (1u << std::min(kRowLanes, sides_.count - begin)) - 1;
-      if (sides_.count > kFewTriangles) met &= cull(group, p, begin);
-      if (met == 0) continue;
-      if (!plain_) {
-        test_each(p, rays, begin, met, all);
-        if (p.blocked == all) return;
+      const LightTriangles& triangles = scratch_.triangles[m.triangles];
+      if (i + 1 < last) prefetch(scratch_.triangles[scratch_.sorted[i + 1].triangles]);
+      if (!plain_ || m.edge_on != 0) {
+        decide(group, m, packets, count);
         continue;
       }
-      auto unsure = hn::MaskFromVec(hn::Zero(f));
-      for (std::uint32_t rest = met; rest != 0; rest &= rest - 1) {
-        RayMask hit, open;
-        rays.test(sides_, begin + first_lane(rest), hit, open);
-        blocked = hn::Or(blocked, hit);
-        unsure = hn::Or(unsure, hn::AndNot(hit, open));
-        if (hn::AllTrue(f, blocked)) {
-          p.blocked = all;
-          return;
+      for (std::uint32_t rest = m.lanes; rest != 0; rest &= rest - 1) {
+        const TriangleTest test(triangles, first_lane(rest), group);
+        for (std::uint32_t k = 0; k < count; ++k) {
+          RayMask hit, open;
+          test(packets[k], hit, open);
+          packets[k].blocked = hn::Or(packets[k].blocked, hit);
+          packets[k].unsure = hn::Or(packets[k].unsure, hn::AndNot(hit, open));
         }
       }
-      p.blocked = ray_bits(blocked) & all;
-      if (HWY_UNLIKELY((ray_bits(unsure) & all & ~p.blocked) != 0)) {
-        test_each(p, rays, begin, met, all);
-        blocked = bits_to_mask(p.blocked | ~all);
+      if (all_blocked(packets, count)) break;
+    }
+    bool is_open = false;
+    for (std::uint32_t k = 0; k < count; ++k)
+      is_open = is_open || !hn::AllFalse(RayTag(), hn::AndNot(packets[k].blocked, packets[k].unsure));
+    if (HWY_UNLIKELY(is_open))
+      for (std::uint32_t i = first; i < last; ++i) decide(group, scratch_.sorted[i], packets, count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t present = static_cast<std::uint32_t>((std::uint64_t{1} << packets[k].count) - 1);
+      for (std::uint32_t rest = ray_bits(packets[k].blocked) & present; rest != 0; rest &= rest - 1)
+        rays_.out[scratch_.name[packets[k].first + first_lane(rest)]] = 1;
+    }
+  }
+
+  /// Lanes without a ray are blocked from the start.
+  std::uint32_t load(const RayGroup& group, Packet* packets) const {
+    const RayTag f;
+    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < group.count; i += step) {
+      Packet& p = packets[count++];
+      p.first = group.first + i;
+      p.count = std::min(step, group.count - i);
+      p.u = hn::LoadU(f, scratch_.u.data() + p.first);
+      p.v = hn::LoadU(f, scratch_.v.data() + p.first);
+      p.w = hn::LoadU(f, scratch_.w.data() + p.first);
+      p.blocked = hn::Not(hn::FirstN(f, p.count));
+      p.unsure = hn::MaskFromVec(hn::Zero(f));
+    }
+    return count;
+  }
+
+  static bool all_blocked(const Packet* packets, std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k)
+      if (!hn::AllTrue(RayTag(), packets[k].blocked)) return false;
+    return true;
+  }
+
+  static void prefetch(const LightTriangles& t) {
+    for (std::size_t line = 0; line < sizeof t; line += 64) hwy::Prefetch(reinterpret_cast<const char*>(&t) + line);
+  }
+
+  /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
+  HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet* packets, std::uint32_t count) {
+    const LightTriangles& triangles = scratch_.triangles[m.triangles];
+    for (std::uint32_t rest = m.lanes | m.edge_on; rest != 0; rest &= rest - 1) {
+      const std::uint32_t lane = first_lane(rest);
+      const TriangleTest test(triangles, lane, group);
+      const bool is_edge_on = (m.edge_on >> lane & 1) != 0;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        Packet& p = packets[k];
+        RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
+        if (is_edge_on)
+          open = test.edge_on(p);
+        else
+          test(p, hit, open);
+        const std::uint32_t left = ~ray_bits(p.blocked), hits = ray_bits(hit) & left;
+        std::uint32_t blocked = plain_ ? hits : admitted(p, hits, triangles.id[lane]);
+        blocked |= exactly(p, ray_bits(open) & left & ~hits, triangles.id[lane]);
+        p.blocked = hn::Or(p.blocked, lane_mask(blocked));
       }
     }
   }
 
-  /// Where hits need a second look: what is open is decided exactly, and skipped or see-through triangles are left out.
-  HWY_NOINLINE void test_each(Packet& p, const Lanes& rays, std::uint32_t begin, std::uint32_t met, std::uint32_t all) {
-    pendings_ = 0;
-    for (; met != 0; met &= met - 1) {
-      const std::uint32_t i = begin + first_lane(met);
-      RayMask hit, open;
-      rays.test(sides_, i, hit, open);
-      const std::uint32_t hits = ray_bits(hit) & all, unsure = ray_bits(open) & all & ~hits & ~p.blocked;
-      if (unsure != 0) add_pending(p, unsure, sides_.id[i]);
-      p.blocked |= plain_ ? hits : admitted(p, hits & ~p.blocked, sides_.id[i]);
-    }
-    decide(p);
-  }
-
-  std::uint32_t cull(const RayGroup& group, const Packet& p, std::uint32_t begin) const {
-    const RayTag f;
-    std::uint32_t met = 0;
-    const auto u = hn::Set(f, p.u), v = hn::Set(f, p.v), half_u = hn::Set(f, p.half_u), half_v = hn::Set(f, p.half_v);
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto row = [&](std::uint32_t r) { return hn::LoadU(f, sides_.rows[r] + begin + i); };
-      const auto most = [&](RayVec a, RayVec b, RayVec c) {
-        return hn::MulAdd(a, u, hn::MulAdd(b, v, hn::MulAdd(hn::Abs(a), half_u, hn::MulAdd(hn::Abs(b), half_v, c))));
-      };
-      auto inner = most(row(PacketList::edge), row(PacketList::edge + 1), row(PacketList::edge + 2));
-      inner = hn::Min(inner, most(row(PacketList::edge + 3), row(PacketList::edge + 4), row(PacketList::edge + 5)));
-      inner = hn::Min(inner, most(row(PacketList::edge + 6), row(PacketList::edge + 7), row(PacketList::edge + 8)));
-      const auto before = most(hn::Sub(row(PacketList::plane), hn::Set(f, group.slope_u)),
-                               hn::Sub(row(PacketList::plane + 1), hn::Set(f, group.slope_v)),
-                               hn::Sub(row(PacketList::plane + 2), hn::Set(f, p.base)));
-      const auto open = hn::Ge(hn::Min(inner, before), hn::Zero(f));
-      met |= ray_bits(open) << i;
-    }
-    return met;
-  }
-
-  /// The light is in the triangle's plane or nearly so: a ray that passes two edges on different sides misses it.
-  void test_edge_on(Packet& p, std::uint32_t all) {
-    const RayTag f;
-    const Lanes rays = load(p);
-    pendings_ = 0;
-    for (std::uint32_t i = 0; i < edge_on_.count; ++i) {
-      const auto a = rays.linear(edge_on_, PacketList::edge, i), b = rays.linear(edge_on_, PacketList::edge + 3, i);
-      const auto c = rays.linear(edge_on_, PacketList::edge + 6, i);
-      const auto sure = hn::Set(f, edge_on_.rows[PacketList::edge_sure][i]);
-      const auto apart = hn::And(hn::Gt(hn::Max(a, hn::Max(b, c)), sure), hn::Lt(hn::Min(a, hn::Min(b, c)), hn::Zero(f)));
-      const std::uint32_t open = all & ~p.blocked & ~ray_bits(apart);
-      if (open != 0) add_pending(p, open, edge_on_.id[i]);
-    }
-    decide(p);
-  }
-
-  void add_pending(Packet& p, std::uint32_t lanes, std::uint32_t id) {
-    if (pendings_ == kMostPending) decide(p);
-    pending_[pendings_++] = {lanes, id};
-  }
-
-  /// Exactly, ray by ray.
-  HWY_NOINLINE void decide(Packet& p) {
+  std::uint32_t exactly(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
     NoCounts none;
-    for (std::uint32_t k = 0; k < pendings_; ++k) {
-      for (std::uint32_t rest = pending_[k].lanes & ~p.blocked; rest != 0; rest &= rest - 1) {
-        const std::uint32_t i = scratch_.name[p.first + first_lane(rest)];
-        if (rays_.skip) filter_.set_skip(rays_.skip[i]);
-        ++exact_;
-        if (blocks(scene_, filter_, rays_.rays[i], pending_[k].id, none)) p.blocked |= rest & (0u - rest);
-      }
+    std::uint32_t result = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const std::uint32_t i = scratch_.name[p.first + first_lane(lanes)];
+      if (rays_.skip) filter_.set_skip(rays_.skip[i]);
+      ++exact_;
+      if (blocks(scene_, filter_, rays_.rays[i], id, none)) result |= lanes & (0u - lanes);
     }
-    pendings_ = 0;
+    return result;
   }
 
   std::uint32_t admitted(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
@@ -316,21 +220,11 @@ class LightPackets {
     return result;
   }
 
-  static constexpr std::uint32_t kMostPending = 64;
-
   const SceneView& scene_;
   const GroupRays& rays_;
   LightViewScratch& scratch_;
   Filter filter_;
   bool plain_;
-  PacketList sides_, edge_on_;
-  Packet packets_[kMostRays];
-  std::uint32_t packet_count_ = 0;
-  Pending pending_[kMostPending];
-  std::uint32_t pendings_ = 0;
-
- public:
-  std::uint64_t exact_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE

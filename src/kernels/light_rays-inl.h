@@ -106,9 +106,6 @@ class LightRays {
   const ViewErrors& errors() const { return errors_; }
 
  private:
-  static constexpr std::uint32_t kFewestRays = 32;
-  static constexpr float kThinner = 0.75f;
-
   /// The end of the shortest of some rays: the nearer the start, the less its direction's rounding moves the end.
   void find_light() {
     constexpr std::size_t kSamples = 64;
@@ -285,58 +282,59 @@ class LightRays {
     return spread.get();
   }
 
+  /// Cuts the rectangle in the middle of its longer side, down to few rays.
   void split(std::uint32_t face, std::uint32_t first, std::uint32_t count, const Rectangle& r) {
-    if (count > kFewestRays) {
-      const RayTag f;
-      const bool by_u = r.high_u - r.low_u >= r.high_v - r.low_v;
-      const float* key = part_.rows[by_u ? FaceRun::u : FaceRun::v];
-      const auto middle = hn::Set(f, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v));
-      Spread low, high;
-      std::size_t lows = 0;
-      for_lanes(first, count, [&](std::uint32_t i, RayMask use) {
-        const auto below = hn::And(use, hn::Lt(hn::LoadU(f, key + i), middle));
-        const auto u = hn::LoadU(f, part_.rows[FaceRun::u] + i), v = hn::LoadU(f, part_.rows[FaceRun::v] + i);
-        low.add(u, v, below);
-        high.add(u, v, hn::AndNot(below, use));
-        lows += hn::CountTrue(f, below);
-      });
-      if (lows != 0 && lows != count) {
-        const Rectangle a = low.get(), b = high.get();
-        if (a.area() + b.area() < kThinner * r.area()) {
-          partition(first, count, key, middle);
-          split(face, first, static_cast<std::uint32_t>(lows), a);
-          split(face, first + static_cast<std::uint32_t>(lows), count - static_cast<std::uint32_t>(lows), b);
-          return;
-        }
-      }
+    if (count <= kGroupRays) {
+      add_group(face, first, count, r);
+      return;
     }
-    add_group(face, first, count, r);
+    const bool by_u = r.high_u - r.low_u >= r.high_v - r.low_v;
+    Rectangle low, high;
+    std::uint32_t lows = partition(first, count, by_u ? FaceRun::u : FaceRun::v,
+                                   by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v), low, high);
+    if (lows == 0 || lows == count) {  // starts that cannot be told apart
+      lows = kGroupRays;
+      low = high = r;
+    }
+    split(face, first, lows, low);
+    split(face, first + lows, count - lows, high);
   }
 
-  void partition(std::uint32_t first, std::uint32_t count, const float* key, RayVec middle) {
+  std::uint32_t partition(std::uint32_t first, std::uint32_t count, FaceRun::Row key, float middle, Rectangle& low,
+                          Rectangle& high) {
     const RayTag f;
     const RayBitsTag n;
     std::uint32_t low_end = first, high_end = 0;
+    Spread low_spread, high_spread;
     for_lanes(first, count, [&](std::uint32_t i, RayMask use) {
-      const auto below = hn::And(use, hn::Lt(hn::LoadU(f, key + i), middle));
-      const auto above = hn::AndNot(below, use);
-      const auto lows = hn::CountTrue(f, below);
-      const auto first_lows = hn::FirstN(f, lows);
-      for (std::uint32_t row = 0; row < FaceRun::kRows; ++row) {
-        const auto x = hn::LoadU(f, part_.rows[row] + i);
-        hn::BlendedStore(hn::Compress(x, below), first_lows, f, part_.rows[row] + low_end);
-        hn::StoreU(hn::Compress(x, above), f, above_.rows[row] + high_end);
-      }
+      const auto u = hn::LoadU(f, part_.rows[FaceRun::u] + i), v = hn::LoadU(f, part_.rows[FaceRun::v] + i);
+      const auto w = hn::LoadU(f, part_.rows[FaceRun::w] + i);
       const auto name = hn::LoadU(n, part_.name + i);
+      const auto below = hn::And(use, hn::Lt(key == FaceRun::u ? u : v, hn::Set(f, middle)));
+      const auto above = hn::AndNot(below, use);
+      low_spread.add(u, v, below);
+      high_spread.add(u, v, above);
+      // What is written past the low ones was read before, as they come no later than here.
+      hn::StoreU(hn::Compress(u, above), f, above_.rows[FaceRun::u] + high_end);
+      hn::StoreU(hn::Compress(v, above), f, above_.rows[FaceRun::v] + high_end);
+      hn::StoreU(hn::Compress(w, above), f, above_.rows[FaceRun::w] + high_end);
+      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, above_.name + high_end);
+      const auto lows = hn::CountTrue(f, below);
+      high_end += static_cast<std::uint32_t>(hn::CountTrue(f, above));
+      const auto first_lows = hn::FirstN(f, lows);
+      hn::BlendedStore(hn::Compress(u, below), first_lows, f, part_.rows[FaceRun::u] + low_end);
+      hn::BlendedStore(hn::Compress(v, below), first_lows, f, part_.rows[FaceRun::v] + low_end);
+      hn::BlendedStore(hn::Compress(w, below), first_lows, f, part_.rows[FaceRun::w] + low_end);
       hn::BlendedStore(hn::Compress(name, hn::RebindMask(n, below)), hn::RebindMask(n, first_lows), n,
                        part_.name + low_end);
-      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, above_.name + high_end);
       low_end += static_cast<std::uint32_t>(lows);
-      high_end += static_cast<std::uint32_t>(hn::CountTrue(f, above));
     });
     for (std::uint32_t row = 0; row < FaceRun::kRows; ++row)
       std::memcpy(part_.rows[row] + low_end, above_.rows[row], high_end * sizeof(float));
     std::memcpy(part_.name + low_end, above_.name, high_end * sizeof(std::int32_t));
+    low = low_spread.get();
+    high = high_spread.get();
+    return low_end - first;
   }
 
   /// Takes the rays over to the view's order.

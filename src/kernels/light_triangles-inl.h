@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles as a light sees them. For A, B, C as offsets from the light, a start at m r (r = (u, v, +-1) on the face's
+// Triangles as a light sees them. For A, B, C as offsets from the light, a start at m r (r = (u, v, 1) on the face's
 // axes, m its depth, w = 1/m) and N the triangle's normal:
 //   the line from the start to the light passes A and B on the side of (A x (B - A)) . r,
 //   and the triangle's plane lies before the start if N . r / (N . A) > w.
@@ -45,20 +45,20 @@ HWY_INLINE RayVec length(const LaneVec3& a) {
 /// Sixteen triangles and one light.
 class TriangleLanes {
  public:
-  TriangleLanes(const TriangleRows& rows, const LightPoint& light, const ViewErrors& errors)
-      : rows_(rows), light_(light), errors_(errors) {}
+  TriangleLanes(const TriangleRows& rows, const Face& face, const LightPoint& light, const ViewErrors& errors)
+      : rows_(rows), face_(face), light_(light), errors_(errors) {}
 
   /// Rectangles and nearest points on a face: a triangle that spans it or comes too near has no bounds.
-  void bound(const Face& face, GroupRows& out) const {
+  void bound(GroupRows& out) const {
     const RayTag f;
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
     const auto off = hn::Set(f, errors_.most);
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       auto low_u = infinity, low_v = infinity, high_u = hn::Neg(infinity), high_v = high_u, least = infinity;
       for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
-        const auto m = hn::Mul(offset(vertex, face.axis, i), hn::Set(f, face.sign));
+        const auto m = hn::Mul(offset(vertex, face_.axis, i), hn::Set(f, face_.sign));
         const auto w = hn::Div(hn::Set(f, 1.0f), m);
-        const auto u = hn::Mul(offset(vertex, face.u_axis(), i), w), v = hn::Mul(offset(vertex, face.v_axis(), i), w);
+        const auto u = hn::Mul(offset(vertex, face_.u_axis(), i), w), v = hn::Mul(offset(vertex, face_.v_axis(), i), w);
         least = hn::Min(least, m);
         low_u = hn::Min(low_u, u);
         high_u = hn::Max(high_u, u);
@@ -143,14 +143,16 @@ class TriangleLanes {
                    hn::Set(RayTag(), light_.low[axis]));
   }
   LaneVec3 offset(std::uint32_t vertex, std::uint32_t i) const {
-    return {offset(vertex, 0, i), offset(vertex, 1, i), offset(vertex, 2, i)};
+    return {offset(vertex, face_.u_axis(), i), offset(vertex, face_.v_axis(), i),
+            hn::Mul(offset(vertex, face_.axis, i), hn::Set(RayTag(), face_.sign))};
   }
   LaneVec3 edge(std::uint32_t from, std::uint32_t to, std::uint32_t i) const {
-    return {hn::Sub(row(to, 0, i), row(from, 0, i)), hn::Sub(row(to, 1, i), row(from, 1, i)),
-            hn::Sub(row(to, 2, i), row(from, 2, i))};
+    const auto along = [&](std::uint32_t axis) { return hn::Sub(row(to, axis, i), row(from, axis, i)); };
+    return {along(face_.u_axis()), along(face_.v_axis()), hn::Mul(along(face_.axis), hn::Set(RayTag(), face_.sign))};
   }
 
   const TriangleRows& rows_;
+  const Face& face_;
   const LightPoint& light_;
   const ViewErrors& errors_;
 };

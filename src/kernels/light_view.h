@@ -24,11 +24,15 @@ struct Face {
 };
 inline constexpr std::uint32_t kViewFaces = 6;
 
+/// The most rays of a group.
+inline constexpr std::uint32_t kGroupRays = 48;
+
 /// Rays of one face whose starts are near each other as the light sees them.
 struct RayGroup {
   float u, v, half_u, half_v;  ///< the rectangle that they are in
   float slope_u, slope_v, base;  ///< no start is farther than where one over the depth is base + slope_u u + slope_v v
   float nearest, farthest;       ///< the largest and the smallest one over the depth
+  float reach;  ///< the largest depth
   std::uint32_t first, count;
 };
 
@@ -40,7 +44,7 @@ struct alignas(64) GroupRows {
 };
 
 /// Triangles side by side, prepared for one light: for a start that the light sees at (u, v), w = 1 over the depth, each
-/// value is a linear function of (offset direction) r = (u, v, +-1) on the face's axes.
+/// value is a linear function of r = (u, v, 1).
 struct alignas(64) LightTriangles {
   float edge[3][3][kRowLanes];  ///< by edge and axis; r is inside of an edge where its product with it is positive
   float plane[3][kRowLanes];    ///< its product with r is one over the plane's depth at r

@@ -29,7 +29,7 @@ struct ViewBox {
 /// A group's rectangle and starts against sixteen triangles.
 class GroupTest {
  public:
-  GroupTest(const Face& face, const RayGroup& group) : face_(face), group_(group) {}
+  explicit GroupTest(const RayGroup& group) : group_(group) {}
 
   struct Result {
     std::uint32_t met;     ///< may block some start
@@ -39,7 +39,7 @@ class GroupTest {
   Result operator()(const LightTriangles& t, std::uint32_t wanted, std::uint32_t edge_on) const {
     const RayTag f;
     Result result{0, 0};
-    const auto u = hn::Set(f, group_.u), v = hn::Set(f, group_.v), side = hn::Set(f, face_.sign);
+    const auto u = hn::Set(f, group_.u), v = hn::Set(f, group_.v);
     const auto half_u = hn::Set(f, group_.half_u), half_v = hn::Set(f, group_.half_v);
     const auto nearest = hn::Set(f, group_.nearest);
     const auto slope_u = hn::Set(f, group_.slope_u), slope_v = hn::Set(f, group_.slope_v), base = hn::Set(f, group_.base);
@@ -47,20 +47,19 @@ class GroupTest {
     for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
       const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
       if (some == 0) continue;
-      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, 1 / group_.farthest), hn::Load(f, t.edge_error[0] + i));
+      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
       auto least_low = least_high;
       for (const auto& edge : t.edge) {
-        const auto eu = hn::Load(f, edge[face_.u_axis()] + i), ev = hn::Load(f, edge[face_.v_axis()] + i);
-        const auto middle = hn::MulAdd(eu, u, hn::MulAdd(ev, v, hn::Mul(hn::Load(f, edge[face_.axis] + i), side)));
+        const auto eu = hn::Load(f, edge[0] + i), ev = hn::Load(f, edge[1] + i);
+        const auto middle = hn::MulAdd(eu, u, hn::MulAdd(ev, v, hn::Load(f, edge[2] + i)));
         const auto reach = hn::MulAdd(hn::Abs(eu), half_u, hn::MulAdd(hn::Abs(ev), half_v, error));
         least_high = hn::Min(least_high, hn::Add(middle, reach));
         most_low = hn::Max(most_low, hn::Sub(middle, reach));
         least_low = hn::Min(least_low, hn::Sub(middle, reach));
       }
       const auto outside = hn::Lt(least_high, hn::Zero(f));
-      const auto pu = hn::Load(f, t.plane[face_.u_axis()] + i), pv = hn::Load(f, t.plane[face_.v_axis()] + i);
-      const auto pw = hn::Mul(hn::Load(f, t.plane[face_.axis] + i), side);
+      const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
       const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
       const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
       const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
@@ -81,7 +80,6 @@ class GroupTest {
   }
 
  private:
-  const Face& face_;
   const RayGroup& group_;
 };
 
@@ -126,6 +124,7 @@ class LightWalk {
       g.base -= off * (g.nearest + std::abs(g.slope_u) + std::abs(g.slope_v));
       g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end));
       g.nearest *= 1 + off;
+      g.reach = 1 / g.farthest;
     }
     const std::size_t rows = (face.groups.size() + kRowLanes - 1) / kRowLanes;
     face.rows.resize(rows);
@@ -225,9 +224,9 @@ class LightWalk {
   }
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
-    const TriangleLanes lanes(rows, light_, errors_);
+    const TriangleLanes lanes(rows, here.face, light_, errors_);
     GroupRows bounds;
-    lanes.bound(here.face, bounds);
+    lanes.bound(bounds);
     const std::uint32_t all = (1u << rows.count) - 1;
     std::uint32_t edge_on = 0;
     bool is_prepared = false, is_kept = false;
@@ -246,7 +245,7 @@ class LightWalk {
           is_prepared = true;
         }
         const std::uint32_t group = row * kRowLanes + lane;
-        const GroupTest::Result result = GroupTest(here.face, here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
+        const GroupTest::Result result = GroupTest(here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
         if (result.met == 0) continue;
         if (result.blocks != 0 && may_cover_) {
           here.groups.live[row] &= ~(1u << lane);
