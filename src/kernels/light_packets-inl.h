@@ -202,7 +202,7 @@ class LightPackets {
     NoCounts none;
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
-      const std::uint32_t i = scratch_.name[p.first + first_lane(lanes)];
+      const auto i = static_cast<std::uint32_t>(scratch_.name[p.first + first_lane(lanes)]);
       if (rays_.skip) filter_.set_skip(rays_.skip[i]);
       ++exact_;
       if (blocks(scene_, filter_, rays_.rays[i], id, none)) result |= lanes & (0u - lanes);
@@ -213,7 +213,7 @@ class LightPackets {
   std::uint32_t admitted(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
-      const std::uint32_t i = scratch_.name[p.first + first_lane(lanes)];
+      const auto i = static_cast<std::uint32_t>(scratch_.name[p.first + first_lane(lanes)]);
       if (rays_.skip) filter_.set_skip(rays_.skip[i]);
       if (filter_.admits(id) && filter_.is_opaque(rays_.rays[i], id)) result |= lanes & (0u - lanes);
     }

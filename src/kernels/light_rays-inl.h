@@ -47,19 +47,29 @@ struct RayRun {
   std::uint32_t count = 0;
 };
 
-/// Those of one face.
-struct FaceRun {
-  enum Row : std::uint32_t { u, v, w, kRows };
-
-  alignas(64) float rows[kRows][kMostRays + kRowLanes];
-  alignas(64) std::int32_t name[kMostRays + kRowLanes];
-};
-
 /// A rectangle of (u, v).
 struct Rectangle {
   float low_u, high_u, low_v, high_v;
 
   float area() const { return (high_u - low_u) * (high_v - low_v); }
+};
+
+/// How many layers of groups there are, on average, where there are any.
+class Overlap {
+ public:
+  void add(std::uint32_t face, const RayGroup& g) {
+    const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp((x + 1) * 16, 0.0f, 31.0f)); };
+    std::uint32_t& row = seen_[face][cell(g.v)];
+    const std::uint32_t bit = 1u << cell(g.u);
+    cells_ += (row & bit) == 0 ? 1.0f : 0.0f;
+    row |= bit;
+    area_ += 4 * g.half_u * g.half_v;
+  }
+  float layers() const { return area_ * 256 / std::max(cells_, 1.0f); }
+
+ private:
+  std::uint32_t seen_[kViewFaces][32] = {};
+  float cells_ = 0, area_ = 0;
 };
 
 /// How far the ends of true segments may be from what is computed, over the depth of the start; and at most, anywhere.
@@ -82,30 +92,30 @@ class LightRays {
   /// False if there are too many rays that do not end where the first does.
   bool read() {
     find_light();
-    scratch_.odd.clear();
-    for (auto& face : scratch_.faces) face.groups.clear();
-    scratch_.ray_count = 0;
-    const std::size_t room = rays_.count + kRowLanes;
-    if (scratch_.u.size() < room) {
-      scratch_.u.resize(room);
-      scratch_.v.resize(room);
-      scratch_.w.resize(room);
-      scratch_.name.resize(room);
-    }
+    scratch_.clear(rays_.count + kRowLanes);
+    std::size_t next_look = 16 * kMostRays;
     for (std::size_t begin = 0; begin < rays_.count; begin += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, rays_.count - begin));
       run_.count = 0;
       read_run(begin, count);
       if (16 * scratch_.odd.size() > kMostRays + begin) return false;
-      for (std::uint32_t face = 0; face < kViewFaces; ++face) group_face(face);
+      for (std::uint32_t face = 0; face < kViewFaces; ++face) take_face(face);
+      if (begin < next_look || is_sorting_) continue;
+      is_sorting_ = overlap_.layers() > kMostLayers;
+      next_look *= 2;
     }
+    if (is_sorting_ || overlap_.layers() > kMostLayers) sort();
     return true;
   }
 
+  float layers() const { return overlap_.layers(); }
   const LightPoint& light() const { return light_; }
   const ViewErrors& errors() const { return errors_; }
 
  private:
+  static constexpr float kMostLayers = 8;
+  static constexpr std::uint32_t kCells = 64;  ///< of a face, along a side
+
   /// The end of the shortest of some rays: the nearer the start, the less its direction's rounding moves the end.
   void find_light() {
     constexpr std::size_t kSamples = 64;
@@ -223,32 +233,80 @@ class LightRays {
   }
 
   /// Picks the run's rays of a face, and groups them.
-  void group_face(std::uint32_t number) {
+  void take_face(std::uint32_t number) {
     const Face face(number);
     const RayTag f;
     const RayBitsTag n;
     const auto wanted = hn::Set(n, static_cast<std::int32_t>(number));
-    std::uint32_t count = 0;
-    for_lanes(0, run_.count, [&](std::uint32_t i, RayMask use) {
+    const std::size_t first = scratch_.ray_count;
+    Spread spread;
+    for_lanes(0, run_.count, [&](std::size_t i, RayMask use) {
       const auto keep = hn::And(use, hn::RebindMask(f, hn::Eq(hn::LoadU(n, run_.face + i), wanted)));
       if (hn::AllFalse(f, keep)) return;
       const auto w = hn::Div(hn::Set(f, face.sign), hn::LoadU(f, run_.offset[face.axis] + i));
       const auto u = hn::Mul(hn::LoadU(f, run_.offset[face.u_axis()] + i), w);
       const auto v = hn::Mul(hn::LoadU(f, run_.offset[face.v_axis()] + i), w);
-      hn::StoreU(hn::Compress(u, keep), f, part_.rows[FaceRun::u] + count);
-      hn::StoreU(hn::Compress(v, keep), f, part_.rows[FaceRun::v] + count);
-      hn::StoreU(hn::Compress(w, keep), f, part_.rows[FaceRun::w] + count);
-      hn::StoreU(hn::Compress(hn::LoadU(n, run_.name + i), hn::RebindMask(n, keep)), n, part_.name + count);
-      count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
+      spread.add(u, v, keep);
+      const std::size_t at = scratch_.ray_count;
+      hn::StoreU(hn::Compress(u, keep), f, scratch_.u.data() + at);
+      hn::StoreU(hn::Compress(v, keep), f, scratch_.v.data() + at);
+      hn::StoreU(hn::Compress(w, keep), f, scratch_.w.data() + at);
+      hn::StoreU(hn::Compress(hn::LoadU(n, run_.name + i), hn::RebindMask(n, keep)), n, scratch_.name.data() + at);
+      scratch_.ray_count += hn::CountTrue(f, keep);
     });
-    if (count != 0) split(number, 0, count, bounds(0, count));
+    const std::size_t count = scratch_.ray_count - first;
+    if (count == 0) return;
+    scratch_.segments.push_back({number, first, count});
+    if (!is_sorting_) split(number, first, count, spread.get());
+  }
+
+  /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
+  void sort() {
+    auto& ends = scratch_.counts;
+    ends.assign(kViewFaces * kCells * kCells + 1, 0);
+    for_rays([&](std::uint32_t cell, std::size_t) { ++ends[cell + 1]; });
+    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
+    scratch_.records.resize(scratch_.ray_count + kRowLanes);
+    for_rays([&](std::uint32_t cell, std::size_t i) {
+      scratch_.records[ends[cell]++] = {scratch_.u[i], scratch_.v[i], scratch_.w[i], scratch_.name[i]};
+    });
+    for (std::size_t i = 0; i < scratch_.ray_count; ++i) {
+      const auto& r = scratch_.records[i];
+      scratch_.u[i] = r.u;
+      scratch_.v[i] = r.v;
+      scratch_.w[i] = r.w;
+      scratch_.name[i] = r.name;
+    }
+    for (auto& face : scratch_.faces) face.groups.clear();
+    std::size_t first = 0;
+    for (std::uint32_t cell = 0; cell + 1 < ends.size(); ++cell) {
+      const std::size_t count = ends[cell] - first;
+      if (count != 0) split(cell / (kCells * kCells), first, count, bounds(first, count));
+      first = ends[cell];
+    }
+  }
+
+  static std::uint32_t spread_bits(std::uint32_t x) {  // a zero before each of 8 bits
+    x = (x | x << 4) & 0x0F0Fu;
+    x = (x | x << 2) & 0x3333u;
+    return (x | x << 1) & 0x5555u;
+  }
+  template <class Each>
+  void for_rays(Each&& each) const {
+    const auto place = [](float x) {
+      return std::min(static_cast<std::uint32_t>(std::max(x + 1, 0.0f) * (0.5f * kCells)), kCells - 1);
+    };
+    for (const auto& segment : scratch_.segments) {
+      const std::uint32_t base = segment.face * kCells * kCells;
+      for (std::size_t i = segment.first; i < segment.first + segment.count; ++i)
+        each(base + (spread_bits(place(scratch_.u[i])) | spread_bits(place(scratch_.v[i])) << 1), i);
+    }
   }
 
   template <class Each>
-  static HWY_INLINE void for_lanes(std::uint32_t first, std::uint32_t count, Each&& each) {
+  static HWY_INLINE void for_lanes(std::size_t first, std::size_t count, Each&& each) {
     const RayTag f;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
-    for (std::uint32_t i = 0; i < count; i += step) each(first + i, hn::FirstN(f, count - i));
+    for (std::size_t i = 0; i < count; i += hn::Lanes(f)) each(first + i, hn::FirstN(f, count - i));
   }
 
   /// Smallest and largest of a rectangle, lane by lane.
@@ -273,25 +331,25 @@ class LightRays {
     }
   };
 
-  Rectangle bounds(std::uint32_t first, std::uint32_t count) const {
+  Rectangle bounds(std::size_t first, std::size_t count) const {
     const RayTag f;
     Spread spread;
-    for_lanes(first, count, [&](std::uint32_t i, RayMask use) {
-      spread.add(hn::LoadU(f, part_.rows[FaceRun::u] + i), hn::LoadU(f, part_.rows[FaceRun::v] + i), use);
+    for_lanes(first, count, [&](std::size_t i, RayMask use) {
+      spread.add(hn::LoadU(f, scratch_.u.data() + i), hn::LoadU(f, scratch_.v.data() + i), use);
     });
     return spread.get();
   }
 
   /// Cuts the rectangle in the middle of its longer side, down to few rays.
-  void split(std::uint32_t face, std::uint32_t first, std::uint32_t count, const Rectangle& r) {
+  void split(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
     if (count <= kGroupRays) {
       add_group(face, first, count, r);
       return;
     }
     const bool by_u = r.high_u - r.low_u >= r.high_v - r.low_v;
     Rectangle low, high;
-    std::uint32_t lows = partition(first, count, by_u ? FaceRun::u : FaceRun::v,
-                                   by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v), low, high);
+    std::size_t lows = partition(first, count, by_u, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v),
+                                 low, high);
     if (lows == 0 || lows == count) {  // starts that cannot be told apart
       lows = kGroupRays;
       low = high = r;
@@ -300,68 +358,61 @@ class LightRays {
     split(face, first + lows, count - lows, high);
   }
 
-  std::uint32_t partition(std::uint32_t first, std::uint32_t count, FaceRun::Row key, float middle, Rectangle& low,
-                          Rectangle& high) {
+  std::size_t partition(std::size_t first, std::size_t count, bool by_u, float middle, Rectangle& low,
+                        Rectangle& high) {
     const RayTag f;
     const RayBitsTag n;
-    std::uint32_t low_end = first, high_end = 0;
+    auto& above_rows = scratch_.above;
+    if (above_rows[0].size() < count + kRowLanes) {
+      for (auto& row : above_rows) row.resize(count + kRowLanes);
+      scratch_.above_name.resize(count + kRowLanes);
+    }
+    float* const rows[3] = {scratch_.u.data(), scratch_.v.data(), scratch_.w.data()};
+    std::size_t low_end = first, high_end = 0;
     Spread low_spread, high_spread;
-    for_lanes(first, count, [&](std::uint32_t i, RayMask use) {
-      const auto u = hn::LoadU(f, part_.rows[FaceRun::u] + i), v = hn::LoadU(f, part_.rows[FaceRun::v] + i);
-      const auto w = hn::LoadU(f, part_.rows[FaceRun::w] + i);
-      const auto name = hn::LoadU(n, part_.name + i);
-      const auto below = hn::And(use, hn::Lt(key == FaceRun::u ? u : v, hn::Set(f, middle)));
+    for_lanes(first, count, [&](std::size_t i, RayMask use) {
+      const RayVec x[3] = {hn::LoadU(f, rows[0] + i), hn::LoadU(f, rows[1] + i), hn::LoadU(f, rows[2] + i)};
+      const auto name = hn::LoadU(n, scratch_.name.data() + i);
+      const auto below = hn::And(use, hn::Lt(by_u ? x[0] : x[1], hn::Set(f, middle)));
       const auto above = hn::AndNot(below, use);
-      low_spread.add(u, v, below);
-      high_spread.add(u, v, above);
-      // What is written past the low ones was read before, as they come no later than here.
-      hn::StoreU(hn::Compress(u, above), f, above_.rows[FaceRun::u] + high_end);
-      hn::StoreU(hn::Compress(v, above), f, above_.rows[FaceRun::v] + high_end);
-      hn::StoreU(hn::Compress(w, above), f, above_.rows[FaceRun::w] + high_end);
-      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, above_.name + high_end);
+      low_spread.add(x[0], x[1], below);
+      high_spread.add(x[0], x[1], above);
+      for (std::size_t k = 0; k < 3; ++k) hn::StoreU(hn::Compress(x[k], above), f, above_rows[k].data() + high_end);
+      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, scratch_.above_name.data() + high_end);
       const auto lows = hn::CountTrue(f, below);
-      high_end += static_cast<std::uint32_t>(hn::CountTrue(f, above));
+      high_end += hn::CountTrue(f, above);
       const auto first_lows = hn::FirstN(f, lows);
-      hn::BlendedStore(hn::Compress(u, below), first_lows, f, part_.rows[FaceRun::u] + low_end);
-      hn::BlendedStore(hn::Compress(v, below), first_lows, f, part_.rows[FaceRun::v] + low_end);
-      hn::BlendedStore(hn::Compress(w, below), first_lows, f, part_.rows[FaceRun::w] + low_end);
+      for (std::size_t k = 0; k < 3; ++k) hn::BlendedStore(hn::Compress(x[k], below), first_lows, f, rows[k] + low_end);
       hn::BlendedStore(hn::Compress(name, hn::RebindMask(n, below)), hn::RebindMask(n, first_lows), n,
-                       part_.name + low_end);
-      low_end += static_cast<std::uint32_t>(lows);
+                       scratch_.name.data() + low_end);
+      low_end += lows;
     });
-    for (std::uint32_t row = 0; row < FaceRun::kRows; ++row)
-      std::memcpy(part_.rows[row] + low_end, above_.rows[row], high_end * sizeof(float));
-    std::memcpy(part_.name + low_end, above_.name, high_end * sizeof(std::int32_t));
+    for (std::size_t k = 0; k < 3; ++k) std::memcpy(rows[k] + low_end, above_rows[k].data(), high_end * sizeof(float));
+    std::memcpy(scratch_.name.data() + low_end, scratch_.above_name.data(), high_end * sizeof(std::int32_t));
     low = low_spread.get();
     high = high_spread.get();
     return low_end - first;
   }
 
-  /// Takes the rays over to the view's order.
-  void add_group(std::uint32_t face, std::uint32_t first, std::uint32_t count, const Rectangle& r) {
-    const std::size_t at = scratch_.ray_count;
-    std::memcpy(scratch_.u.data() + at, part_.rows[FaceRun::u] + first, count * sizeof(float));
-    std::memcpy(scratch_.v.data() + at, part_.rows[FaceRun::v] + first, count * sizeof(float));
-    std::memcpy(scratch_.w.data() + at, part_.rows[FaceRun::w] + first, count * sizeof(float));
-    std::memcpy(scratch_.name.data() + at, part_.name + first, count * sizeof(std::uint32_t));
+  void add_group(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
     RayGroup group;
     group.u = 0.5f * (r.low_u + r.high_u);
     group.v = 0.5f * (r.low_v + r.high_v);
     group.half_u = std::max(r.high_u - group.u, group.u - r.low_u);
     group.half_v = std::max(r.high_v - group.v, group.v - r.low_v);
-    group.first = static_cast<std::uint32_t>(at);
-    group.count = count;
+    group.first = static_cast<std::uint32_t>(first);
+    group.count = static_cast<std::uint32_t>(count);
     fit_plane(first, count, group);
     scratch_.faces[face].groups.push_back(group);
-    scratch_.ray_count += count;
+    overlap_.add(face, group);
   }
 
   /// A plane has a depth whose inverse is linear in (u, v): that of three starts bounds the others if they are in one.
-  void fit_plane(std::uint32_t first, std::uint32_t count, RayGroup& group) const {
-    const float* u = part_.rows[FaceRun::u];
-    const float* v = part_.rows[FaceRun::v];
-    const float* w = part_.rows[FaceRun::w];
-    const std::uint32_t a = first, b = first + count / 3, c = first + 2 * count / 3;
+  void fit_plane(std::size_t first, std::size_t count, RayGroup& group) const {
+    const float* u = scratch_.u.data();
+    const float* v = scratch_.v.data();
+    const float* w = scratch_.w.data();
+    const std::size_t a = first, b = first + count / 3, c = first + 2 * count / 3;
     const float bu = u[b] - u[a], bv = v[b] - v[a], bw = w[b] - w[a];
     const float cu = u[c] - u[a], cv = v[c] - v[a], cw = w[c] - w[a];
     const float det = bu * cv - bv * cu;
@@ -372,7 +423,7 @@ class LightRays {
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
     auto low = infinity, high = hn::Neg(infinity), low_w = infinity, high_w = high;
     const auto su = hn::Set(f, slope_u), sv = hn::Set(f, slope_v);
-    for_lanes(first, count, [&](std::uint32_t i, RayMask use) {
+    for_lanes(first, count, [&](std::size_t i, RayMask use) {
       const auto x = hn::LoadU(f, w + i);
       const auto rest = hn::NegMulAdd(sv, hn::LoadU(f, v + i), hn::NegMulAdd(su, hn::LoadU(f, u + i), x));
       low = hn::IfThenElse(use, hn::Min(low, rest), low);
@@ -396,7 +447,8 @@ class LightRays {
   LightPoint light_;
   ViewErrors errors_;
   RayRun run_;
-  FaceRun part_, above_;
+  bool is_sorting_ = false;
+  Overlap overlap_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -60,7 +60,7 @@ void light_view_occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out
     for (auto& f : scratch->faces) groups += f.groups.size();
     std::size_t lanes = 0, edge_on = 0;
     for (auto& m : scratch->meetings) lanes += hwy::PopCount(m.lanes), edge_on += hwy::PopCount(m.edge_on);
-    std::printf("rays %.2f walk %.2f packets %.2f odd %.2f ms; groups %zu rows kept %zu meetings %zu lanes %zu edge-on %zu exact %lu odd %zu err %g %g\n", t1 - t0,
+    std::printf("layers %.2f rays %.2f walk %.2f packets %.2f odd %.2f ms; groups %zu rows kept %zu meetings %zu lanes %zu edge-on %zu exact %lu odd %zu err %g %g\n", double(light_rays.layers()), t1 - t0,
                 t2 - t1, t3 - t2, t4 - t3, groups, std::size_t{scratch->triangle_count}, scratch->meetings.size(), lanes, edge_on, packets.exact_, scratch->odd.size(), double(light_rays.errors().end), double(light_rays.errors().most));
   }
   table.give_back(std::move(scratch));

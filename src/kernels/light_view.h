@@ -69,16 +69,44 @@ struct LightViewScratch {
     std::vector<std::uint32_t> live;  ///< by row: groups that are not answered yet
   };
 
-  std::vector<float> u, v, w;       ///< of rays in the order of groups
-  std::vector<std::uint32_t> name;  ///< their places in the caller's order
+  /// Rays of one face that were read together.
+  struct Segment {
+    std::uint32_t face;
+    std::size_t first, count;
+  };
+  struct Record {
+    float u, v, w;
+    std::int32_t name;
+  };
+
+  std::vector<float> u, v, w;      ///< of rays in the order of groups
+  std::vector<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
+  std::vector<Segment> segments;
+  std::vector<Record> records;
+  std::vector<float> above[3];
+  std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
   std::vector<std::uint32_t> counts;
   std::vector<std::uint64_t> lists;
-  std::vector<std::uint32_t> odd;
+  std::vector<std::uint32_t> odd;  ///< rays that the view is not for
+
+  /// Forgets all rays, and makes room.
+  void clear(std::size_t room) {
+    if (u.size() < room) {
+      u.resize(room);
+      v.resize(room);
+      w.resize(room);
+      name.resize(room);
+    }
+    ray_count = 0;
+    odd.clear();
+    segments.clear();
+    for (FaceGroups& face : faces) face.groups.clear();
+  }
 };
 
 /// The hierarchy, and memory that calls borrow.
