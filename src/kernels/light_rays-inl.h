@@ -39,9 +39,10 @@ inline std::uint32_t first_lane(std::uint32_t lanes) {
   return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
 }
 
-/// Up to kMostRays rays, as offsets of their starts from the light.
+/// Up to kMostRays rays, as offsets of their starts from the light over the largest of the three, the depth.
 struct RayRun {
-  alignas(64) float offset[3][kMostRays + kRowLanes];
+  alignas(64) float place[3][kMostRays + kRowLanes];
+  alignas(64) float w[kMostRays + kRowLanes];  ///< one over the depth
   alignas(64) std::int32_t face[kMostRays + kRowLanes];
   alignas(64) std::int32_t name[kMostRays + kRowLanes];
   std::uint32_t count = 0;
@@ -105,6 +106,9 @@ class LightRays {
       next_look *= 2;
     }
     if (is_sorting_ || overlap_.layers() > kMostLayers) sort();
+    errors_.end = *std::max_element(end_errors_, end_errors_ + kRowLanes);
+    errors_.start = *std::max_element(start_errors_, start_errors_ + kRowLanes);
+    errors_.most = 0x1p-60f + *std::max_element(most_errors_, most_errors_ + kRowLanes);
     return true;
   }
 
@@ -180,14 +184,10 @@ class LightRays {
       tmax = hn::ConcatOdd(f, b3, a3);
     }
 #endif
-    // What may be a denormal, or made one: the host may flush them.
-    const auto tiny = hn::Set(f, 0x1p-90f), zero = hn::Zero(f), scale = hn::Set(f, scale_);
-    auto good = hn::Or(hn::Gt(hn::Abs(tmin), tiny), hn::Eq(tmin, zero));
+    const auto zero = hn::Zero(f), scale = hn::Set(f, scale_);
     auto off = zero, start_reach = zero, direction = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      good = hn::And(good, hn::Or(hn::Gt(hn::Abs(o[k]), tiny), hn::Eq(o[k], zero)));
-      good = hn::And(good, hn::Or(hn::Gt(hn::Abs(d[k]), tiny), hn::Eq(d[k], zero)));
       direction = hn::Max(direction, hn::Abs(d[k]));
       const auto origin = hn::Sub(hn::MulSub(o[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
       const auto to_start = hn::Mul(hn::Mul(d[k], tmin), scale), to_end = hn::Mul(hn::Mul(d[k], tmax), scale);
@@ -196,35 +196,41 @@ class LightRays {
       offset[k] = hn::Add(origin, to_start);
     }
     const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
-    const auto depth = hn::Max(ax, hn::Max(ay, az));
+    const auto depth = hn::Max(ax, hn::Max(ay, az)), w = hn::Div(hn::Set(f, 1.0f), depth);
     const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-21f), off);  // with the rounding of the end
-    // Only where the end is well away from the start, compared with how far it is off. NaN is never good.
-    good = hn::And(good, hn::And(hn::Lt(hn::Mul(reach, hn::Set(f, 0x1p17f)), depth),
-                                 hn::And(hn::Gt(depth, hn::Set(f, 0x1p-30f)), hn::Lt(depth, hn::Set(f, 0x1p20f)))));
-    good = hn::And(good, hn::And(hn::Lt(tmin, tmax), hn::Gt(direction, zero)));
+    // Only where the end is well away from the start, compared with how far it is off, and where denormals, which the
+    // host may flush, are too small to matter. NaN is never good.
+    const auto between = [&](RayVec x, float low, float high) {
+      return hn::And(hn::Gt(x, hn::Set(f, low)), hn::Lt(x, hn::Set(f, high)));
+    };
+    const auto end_error = hn::Mul(reach, w);
+    auto good = hn::And(hn::Lt(end_error, hn::Set(f, 0x1p-17f)), between(depth, 0x1p-30f, 0x1p20f));
+    good = hn::And(good, hn::And(hn::Lt(tmin, tmax), between(direction, 0x1p-90f, 0x1p30f)));
     const auto present = hn::FirstN(f, here);
     const auto keep = hn::And(good, present);
     for (std::uint32_t rest = ray_bits(hn::AndNot(good, present)); rest != 0; rest &= rest - 1)
       scratch_.odd.push_back(static_cast<std::uint32_t>(first) + first_lane(rest));
     if (hn::AllFalse(f, keep)) return;
 
-    const auto most = [&](float x, RayVec y) {
-      return std::max(x, hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElseZero(keep, y))));
+    const auto raise = [&](float* most, RayVec x, RayMask use) {
+      hn::Store(hn::Max(hn::Load(f, most), hn::IfThenElseZero(use, x)), f, most);
     };
-    errors_.end = most(errors_.end, hn::Div(reach, depth));
-    errors_.most = most(errors_.most, reach);
+    raise(end_errors_, end_error, keep);
+    raise(most_errors_, reach, keep);
     const auto moved = hn::AndNot(hn::Eq(tmin, zero), keep);
     if (!hn::AllFalse(f, moved)) {
-      const auto error = hn::IfThenElseZero(moved, hn::Mul(start_reach, hn::Set(f, 0x1p-22f)));
-      errors_.start = most(errors_.start, hn::Div(error, depth));
-      errors_.most = most(errors_.most, hn::Add(reach, error));
+      const auto error = hn::Mul(start_reach, hn::Set(f, 0x1p-22f));
+      raise(start_errors_, hn::Mul(error, w), moved);
+      raise(most_errors_, hn::Add(reach, error), moved);
     }
     const auto is_x = hn::Ge(ax, hn::Max(ay, az)), is_y = hn::Ge(ay, az);
     const auto main = hn::IfThenElse(is_x, offset[0], hn::IfThenElse(is_y, offset[1], offset[2]));
     auto face = hn::IfThenElse(hn::RebindMask(n, is_x), hn::Zero(n),
                                hn::IfThenElse(hn::RebindMask(n, is_y), hn::Set(n, 2), hn::Set(n, 4)));
     face = hn::Add(face, hn::IfThenElseZero(hn::RebindMask(n, hn::Lt(main, zero)), hn::Set(n, 1)));
-    for (std::size_t k = 0; k < 3; ++k) hn::StoreU(hn::Compress(offset[k], keep), f, run_.offset[k] + run_.count);
+    for (std::size_t k = 0; k < 3; ++k)
+      hn::StoreU(hn::Compress(hn::Mul(offset[k], w), keep), f, run_.place[k] + run_.count);
+    hn::StoreU(hn::Compress(w, keep), f, run_.w + run_.count);
     const auto whole = hn::RebindMask(n, keep);
     hn::StoreU(hn::Compress(face, whole), n, run_.face + run_.count);
     const auto name = hn::Add(hn::Iota(n, 0), hn::Set(n, static_cast<std::int32_t>(first)));
@@ -243,9 +249,8 @@ class LightRays {
     for_lanes(0, run_.count, [&](std::size_t i, RayMask use) {
       const auto keep = hn::And(use, hn::RebindMask(f, hn::Eq(hn::LoadU(n, run_.face + i), wanted)));
       if (hn::AllFalse(f, keep)) return;
-      const auto w = hn::Div(hn::Set(f, face.sign), hn::LoadU(f, run_.offset[face.axis] + i));
-      const auto u = hn::Mul(hn::LoadU(f, run_.offset[face.u_axis()] + i), w);
-      const auto v = hn::Mul(hn::LoadU(f, run_.offset[face.v_axis()] + i), w);
+      const auto u = hn::LoadU(f, run_.place[face.u_axis()] + i), v = hn::LoadU(f, run_.place[face.v_axis()] + i);
+      const auto w = hn::LoadU(f, run_.w + i);
       spread.add(u, v, keep);
       const std::size_t at = scratch_.ray_count;
       hn::StoreU(hn::Compress(u, keep), f, scratch_.u.data() + at);
@@ -446,6 +451,7 @@ class LightRays {
   float scale_;
   LightPoint light_;
   ViewErrors errors_;
+  alignas(64) float end_errors_[kRowLanes] = {}, start_errors_[kRowLanes] = {}, most_errors_[kRowLanes] = {};
   RayRun run_;
   bool is_sorting_ = false;
   Overlap overlap_;

@@ -47,6 +47,16 @@ class GroupTest {
     for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
       const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
       if (some == 0) continue;
+      const std::uint32_t known = ~(edge_on >> i);
+      // The plane first: most of what is near a group is the surface that its rays start from.
+      const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
+      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
+      const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
+      const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
+      const auto slack = hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error));
+      const std::uint32_t open = some & ~(ray_bits(hn::Lt(hn::Add(before, slack), hn::Zero(f))) & known);
+      if (open == 0) continue;
+
       const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
       auto least_low = least_high;
@@ -54,27 +64,21 @@ class GroupTest {
         const auto eu = hn::Load(f, edge[0] + i), ev = hn::Load(f, edge[1] + i);
         const auto middle = hn::MulAdd(eu, u, hn::MulAdd(ev, v, hn::Load(f, edge[2] + i)));
         const auto reach = hn::MulAdd(hn::Abs(eu), half_u, hn::MulAdd(hn::Abs(ev), half_v, error));
+        const auto low = hn::Sub(middle, reach);
         least_high = hn::Min(least_high, hn::Add(middle, reach));
-        most_low = hn::Max(most_low, hn::Sub(middle, reach));
-        least_low = hn::Min(least_low, hn::Sub(middle, reach));
+        most_low = hn::Max(most_low, low);
+        least_low = hn::Min(least_low, low);
       }
+      // Without a known side a triangle is missed if two of its edges are passed on different sides.
       const auto outside = hn::Lt(least_high, hn::Zero(f));
-      const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
-      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
-      const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
-      const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
-      const auto behind = hn::Lt(
-          hn::Add(before, hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error))), hn::Zero(f));
-      const auto plane = hn::MulAdd(pu, u, hn::MulAdd(pv, v, pw));
-      const auto plane_reach = hn::MulAdd(hn::Abs(pu), half_u, hn::MulAdd(hn::Abs(pv), half_v, plane_error));
-      const auto covers = hn::And(hn::Gt(least_low, hn::Zero(f)),
-                                  hn::Gt(hn::Sub(plane, plane_reach), hn::Mul(nearest, hn::Set(f, 1 + 0x1p-18f))));
-      const std::uint32_t known = ~(edge_on >> i);
-      // Without a known side: outside if it is on different sides of two edges.
       const std::uint32_t apart = ray_bits(hn::And(outside, hn::Gt(most_low, hn::Zero(f))));
-      const std::uint32_t missed = (ray_bits(hn::Or(outside, behind)) & known) | (apart & ~known);
-      result.met |= (some & ~missed) << i;
-      result.blocks |= (some & known & ray_bits(covers)) << i;
+      const std::uint32_t met = open & ~((ray_bits(outside) & known) | (apart & ~known));
+      result.met |= met << i;
+      const std::uint32_t within = met & known & ray_bits(hn::Gt(least_low, hn::Zero(f)));
+      if (HWY_LIKELY(within == 0)) continue;
+      const auto least = hn::Sub(hn::MulAdd(pu, u, hn::MulAdd(pv, v, pw)),
+                                 hn::MulAdd(hn::Abs(pu), half_u, hn::MulAdd(hn::Abs(pv), half_v, plane_error)));
+      result.blocks |= (within & ray_bits(hn::Gt(least, hn::Mul(nearest, hn::Set(f, 1 + 0x1p-18f))))) << i;
     }
     return result;
   }
