@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "core/math.h"
-#include "index/side_table.h"
-
+#include "umbrix/executor.h"
 
 namespace umbrix::detail {
 
@@ -32,18 +31,19 @@ struct alignas(64) BvhNode {
 
 /// A hierarchy of boxes in which each triangle is once: for walks that many rays share, where a triangle that is met
 /// twice costs more than boxes that overlap.
-class TriangleBvh : public SideTable {
+class TriangleBvh {
  public:
-  /// Over the triangles named by `kept`, times 2^exponent. Throws std::bad_alloc.
-  TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent);
+  /// Over the triangles named by `kept`, times 2^exponent. Throws std::bad_alloc, or what the executor throws (null:
+  /// oneTBB).
+  TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent,
+              const Executor* executor);
 
-  std::uint64_t bytes() const noexcept override;
+  std::uint64_t bytes() const noexcept;
 
   /// Node 0 is the root; there is none if there are no triangles.
   bool empty() const noexcept { return nodes_.empty(); }
   const BvhNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
   const TriangleRows& rows(std::uint32_t index) const noexcept { return rows_[index]; }
-  std::size_t rows_count() const noexcept { return rows_.size(); }
 
  private:
   std::vector<BvhNode> nodes_;

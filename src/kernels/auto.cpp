@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Groups of rays that share a walk, and what blocked the rays before: see group-inl.h. The default; a FrameTracer also
-// remembers from frame to frame.
+// All rays to a light as the light sees them (light_trace-inl.h); what that is not for goes in groups that share a walk,
+// and first meets what blocked the rays before (group-inl.h). The default.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/auto.cpp"
@@ -9,13 +9,59 @@
 #include <hwy/highway.h>
 
 #include "kernels/batch-inl.h"
+#include "kernels/light_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 namespace {
 
-const EntryPoints& auto_entry_points() { return batch_entry_points<true>(); }
+struct AutoKernel {
+  using Others = BatchKernel<true>;
+
+  static void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
+    for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
+      const GroupRays group{part, out + begin, here.skip, here.mask};
+      if (!trace<NoCounts>(scene, group)) Others::occluded(scene, part, out + begin, here);
+    });
+  }
+
+  static void occluded_counted(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options,
+                               OcclusionCounts& counts) {
+    for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
+      WorkSums sums;
+      const GroupRays group{part, out + begin, here.skip, here.mask, nullptr, nullptr, &sums};
+      if (!trace<CountEach>(scene, group)) {
+        Others::occluded_counted(scene, part, out + begin, here, counts);
+        return;
+      }
+      counts.occluded += sums.counts.occluded;
+      counts.unoccluded += sums.counts.unoccluded;
+    });
+  }
+
+ private:
+  template <class Counts>
+  static bool trace(const SceneView& scene, const GroupRays& rays) {
+    return scene.side && LightTrace<Counts>(scene, *static_cast<const LightViewTable*>(scene.side)).trace(rays);
+  }
+
+  template <class Each>
+  static void for_parts(RaySpan rays, QueryOptions options, Each&& each) {
+    for (std::size_t begin = 0; begin < rays.count; begin += kMostViewRays) {
+      const std::size_t count = std::min(kMostViewRays, rays.count - begin);
+      each(RaySpan{&rays[begin], count, rays.stride}, begin, options);
+      if (options.skip) options.skip += count;
+    }
+  }
+};
+
+const EntryPoints& auto_entry_points() {
+  using Closest = TreeKernel<StackWalk>;
+  static constexpr EntryPoints kEntryPoints = {&AutoKernel::occluded, &AutoKernel::occluded_counted,
+                                               &closest_each<Closest>, &closest_each_counted<Closest>};
+  return kEntryPoints;
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -23,7 +69,16 @@ const EntryPoints& auto_entry_points() { return batch_entry_points<true>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+namespace umbrix::detail {
+namespace {
+
+std::unique_ptr<SideTable> make_light_view(const PrepareInput& input) {
+  const SceneView& s = input.scene;
+  return std::make_unique<LightViewTable>(*s.tree, s.triangles, s.kept, s.kept_count, input.training.executor);
+}
+
+}  // namespace
+}  // namespace umbrix::detail
 UMBRIX_DEFINE_KERNEL(kAutoKernel, auto_entry_points, "auto",
-                     "groups of rays; those guessed to be occluded first meet what blocked the last ones",
-                     make_wide_tree)
+                     "all rays to a light in one walk, as the light sees them; other rays in groups", make_light_view)
 #endif

@@ -13,18 +13,16 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <type_traits>
+#include <vector>
 
 #include "kernels/group_rays.h"
-#include "kernels/light_rays-inl.h"
+#include "kernels/light_view.h"
+#include "kernels/ray_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
-
-inline RayMask lane_mask(std::uint32_t bits) {
-  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8)};
-  return hn::LoadMaskBits(RayTag(), bytes);
-}
 
 /// Some rays of a group side by side.
 struct Packet {
@@ -72,10 +70,17 @@ class TriangleTest {
   RayVec edge_error_, plane_error_;
 };
 
+/// Answers the rays of all groups from what they may meet.
+template <class Counts>
 class LightPackets {
  public:
-  LightPackets(const SceneView& scene, const GroupRays& rays, LightViewScratch& scratch)
-      : scene_(scene), rays_(rays), scratch_(scratch), filter_(scene, rays.mask),
+  /// `each` takes the work of each ray, if it is counted.
+  LightPackets(const SceneView& scene, const GroupRays& rays, LightViewScratch& scratch, std::vector<Counts>& each)
+      : scene_(scene),
+        rays_(rays),
+        scratch_(scratch),
+        each_(each),
+        filter_(scene, rays.mask),
         plain_(!rays.skip && filter_.passes_all()) {}
 
   void trace() {
@@ -85,8 +90,9 @@ class LightPackets {
       auto& groups = scratch_.faces[face];
       for (std::uint32_t i = 0; i < groups.groups.size(); ++i, ++number) {
         const RayGroup& group = groups.groups[i];
+        if constexpr (kCounts) share(group, scratch_.shared[number]);
         if ((groups.live[i / kRowLanes] >> i % kRowLanes & 1) == 0) {
-          for (std::uint32_t k = group.first; k < group.first + group.count; ++k) rays_.out[scratch_.name[k]] = 1;
+          for (std::uint32_t k = group.first; k < group.first + group.count; ++k) rays_.out[name(k)] = 1;
         } else if (scratch_.counts[number] != scratch_.counts[number + 1]) {
           trace_group(group, scratch_.counts[number], scratch_.counts[number + 1]);
         }
@@ -94,9 +100,8 @@ class LightPackets {
     }
   }
 
-  std::uint64_t exact_ = 0;
-
  private:
+  static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
 #if HWY_TARGET == HWY_SCALAR
   static constexpr std::uint32_t kMostPackets = kGroupRays;
 #else
@@ -104,10 +109,8 @@ class LightPackets {
 #endif
 
   void sort_meetings() {
-    std::size_t groups = 0;
-    for (const auto& face : scratch_.faces) groups += face.groups.size();
     auto& counts = scratch_.counts;
-    counts.assign(groups + 2, 0);
+    counts.assign(scratch_.group_count() + 2, 0);
     for (const Meeting& m : scratch_.meetings) ++counts[m.group + 2];
     for (std::size_t i = 2; i < counts.size(); ++i) counts[i] += counts[i - 1];
     scratch_.sorted.resize(scratch_.meetings.size());
@@ -126,6 +129,7 @@ class LightPackets {
         continue;
       }
       for (std::uint32_t rest = m.lanes; rest != 0; rest &= rest - 1) {
+        if constexpr (kCounts) count_tests(packets, count);
         const TriangleTest test(triangles, first_lane(rest), group);
         for (std::uint32_t k = 0; k < count; ++k) {
           RayMask hit, open;
@@ -142,9 +146,8 @@ class LightPackets {
     if (HWY_UNLIKELY(is_open))
       for (std::uint32_t i = first; i < last; ++i) decide(group, scratch_.sorted[i], packets, count);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t present = static_cast<std::uint32_t>((std::uint64_t{1} << packets[k].count) - 1);
-      for (std::uint32_t rest = ray_bits(packets[k].blocked) & present; rest != 0; rest &= rest - 1)
-        rays_.out[scratch_.name[packets[k].first + first_lane(rest)]] = 1;
+      for (std::uint32_t rest = ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)
+        rays_.out[name(packets[k].first + first_lane(rest))] = 1;
     }
   }
 
@@ -176,12 +179,35 @@ class LightPackets {
     for (std::size_t line = 0; line < sizeof t; line += 64) hwy::Prefetch(reinterpret_cast<const char*>(&t) + line);
   }
 
+  /// Equal parts of the walk, the first rays taking the rest.
+  void share(const RayGroup& group, const LightViewScratch::SharedWork& work) {
+    for (std::uint32_t k = 0; k < group.count; ++k) {
+      RayCounts& counts = each_[name(group.first + k)].counts;
+      counts.node_tests += work.nodes / group.count + (k < work.nodes % group.count ? 1 : 0);
+      counts.leaf_visits += work.leaves / group.count + (k < work.leaves % group.count ? 1 : 0);
+    }
+  }
+
+  void count_tests(const Packet* packets, std::uint32_t count) {
+    for (std::uint32_t k = 0; k < count; ++k)
+      for (std::uint32_t rest = ~ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)
+        each_[name(packets[k].first + first_lane(rest))].primitives(1);
+  }
+
+  static std::uint32_t present(const Packet& p) {
+    return static_cast<std::uint32_t>((std::uint64_t{1} << p.count) - 1);
+  }
+  std::size_t name(std::size_t place) const { return static_cast<std::size_t>(scratch_.name[place]); }
+
   /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
   HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet* packets, std::uint32_t count) {
     const LightTriangles& triangles = scratch_.triangles[m.triangles];
     for (std::uint32_t rest = m.lanes | m.edge_on; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = first_lane(rest);
       const TriangleTest test(triangles, lane, group);
+      if constexpr (kCounts) {
+        if (!plain_ || m.edge_on != 0) count_tests(packets, count);  // others were counted before
+      }
       const bool is_edge_on = (m.edge_on >> lane & 1) != 0;
       for (std::uint32_t k = 0; k < count; ++k) {
         Packet& p = packets[k];
@@ -202,10 +228,14 @@ class LightPackets {
     NoCounts none;
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
-      const auto i = static_cast<std::uint32_t>(scratch_.name[p.first + first_lane(lanes)]);
+      const std::size_t i = name(p.first + first_lane(lanes));
       if (rays_.skip) filter_.set_skip(rays_.skip[i]);
-      ++exact_;
-      if (blocks(scene_, filter_, rays_.rays[i], id, none)) result |= lanes & (0u - lanes);
+      bool is_blocked;
+      if constexpr (kCounts)
+        is_blocked = blocks(scene_, filter_, rays_.rays[i], id, each_[i]);
+      else
+        is_blocked = blocks(scene_, filter_, rays_.rays[i], id, none);
+      if (is_blocked) result |= lanes & (0u - lanes);
     }
     return result;
   }
@@ -213,7 +243,7 @@ class LightPackets {
   std::uint32_t admitted(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
-      const auto i = static_cast<std::uint32_t>(scratch_.name[p.first + first_lane(lanes)]);
+      const std::size_t i = name(p.first + first_lane(lanes));
       if (rays_.skip) filter_.set_skip(rays_.skip[i]);
       if (filter_.admits(id) && filter_.is_opaque(rays_.rays[i], id)) result |= lanes & (0u - lanes);
     }
@@ -223,6 +253,7 @@ class LightPackets {
   const SceneView& scene_;
   const GroupRays& rays_;
   LightViewScratch& scratch_;
+  std::vector<Counts>& each_;
   Filter filter_;
   bool plain_;
 };

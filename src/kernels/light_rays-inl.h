@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that end at one light, as it sees their starts, in groups. Rays end only nearly at one point: how far off they
-// are, and how far the starts may be, goes into the bounds of all that follows.
+// Rays that end at one light, as it sees their starts. They end only nearly at one point: how far off they are, and how
+// far the starts may be, goes into the bounds of all that follows.
 
 #if defined(UMBRIX_KERNELS_LIGHT_RAYS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_RAYS_INL_H_
@@ -11,33 +11,16 @@
 
 #include <hwy/highway.h>
 
-#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "kernels/group_rays.h"
-#include "kernels/light_view.h"
+#include "kernels/light_groups-inl.h"
 #include "kernels/walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
-
-using RayTag = hn::CappedTag<float, kRowLanes>;
-using RayVec = hn::Vec<RayTag>;
-using RayMask = hn::Mask<RayTag>;
-using RayBitsTag = hn::RebindToSigned<RayTag>;
-
-inline std::uint32_t ray_bits(RayMask mask) {
-  alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(RayTag(), mask, bytes);
-  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
-}
-
-/// The lowest lane of some.
-inline std::uint32_t first_lane(std::uint32_t lanes) {
-  return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes));
-}
 
 /// Up to kMostRays rays, as offsets of their starts from the light over the largest of the three, the depth.
 struct RayRun {
@@ -48,49 +31,13 @@ struct RayRun {
   std::uint32_t count = 0;
 };
 
-/// A rectangle of (u, v).
-struct Rectangle {
-  float low_u, high_u, low_v, high_v;
-
-  float area() const { return (high_u - low_u) * (high_v - low_v); }
-};
-
-/// How many layers of groups there are, on average, where there are any.
-class Overlap {
- public:
-  void add(std::uint32_t face, const RayGroup& g) {
-    const auto cell = [](float x) { return static_cast<std::uint32_t>(std::clamp((x + 1) * 16, 0.0f, 31.0f)); };
-    std::uint32_t& row = seen_[face][cell(g.v)];
-    const std::uint32_t bit = 1u << cell(g.u);
-    cells_ += (row & bit) == 0 ? 1.0f : 0.0f;
-    row |= bit;
-    area_ += 4 * g.half_u * g.half_v;
-  }
-  float layers() const { return area_ * 256 / std::max(cells_, 1.0f); }
-
- private:
-  std::uint32_t seen_[kViewFaces][32] = {};
-  float cells_ = 0, area_ = 0;
-};
-
-/// How far the ends of true segments may be from what is computed, over the depth of the start; and at most, anywhere.
-struct ViewErrors {
-  float start = 0, end = 0;
-  float most = 0x1p-60f;
-};
-
-/// Where the rays end, as a sum: offsets from it are rounded as if it were a float.
-struct LightPoint {
-  float high[3] = {}, low[3] = {};
-};
-
-/// Reads rays, and sorts them into groups.
+/// Reads rays, and brings them into groups.
 class LightRays {
  public:
   LightRays(const Tree& tree, RaySpan rays, LightViewScratch& scratch)
-      : rays_(rays), scratch_(scratch), scale_(power_of_two(tree.scale_exponent)) {}
+      : rays_(rays), scratch_(scratch), groups_(scratch), scale_(power_of_two(tree.scale_exponent)) {}
 
-  /// False if there are too many rays that do not end where the first does.
+  /// False if there are too many rays that do not end where the first ones do.
   bool read() {
     find_light();
     scratch_.clear(rays_.count + kRowLanes);
@@ -102,23 +49,29 @@ class LightRays {
       if (16 * scratch_.odd.size() > kMostRays + begin) return false;
       for (std::uint32_t face = 0; face < kViewFaces; ++face) take_face(face);
       if (begin < next_look || is_sorting_) continue;
-      is_sorting_ = overlap_.layers() > kMostLayers;
+      is_sorting_ = groups_.layers() > kMostLayers;
       next_look *= 2;
     }
-    if (is_sorting_ || overlap_.layers() > kMostLayers) sort();
-    errors_.end = *std::max_element(end_errors_, end_errors_ + kRowLanes);
-    errors_.start = *std::max_element(start_errors_, start_errors_ + kRowLanes);
-    errors_.most = 0x1p-60f + *std::max_element(most_errors_, most_errors_ + kRowLanes);
+    is_sorting_ = is_sorting_ || groups_.layers() > kMostLayers;
+    if (is_sorting_) groups_.sort();
+    const auto most = [](const float(&x)[kRowLanes]) { return *std::max_element(x, x + kRowLanes); };
+    errors_ = {most(start_errors_), most(end_errors_), 0x1p-60f + most(most_errors_)};
     return true;
   }
 
-  float layers() const { return overlap_.layers(); }
+  /// Sorts what was read, which may cost less to walk then. False if it is sorted.
+  bool sort() {
+    if (is_sorting_) return false;
+    is_sorting_ = true;
+    groups_.sort();
+    return true;
+  }
+
   const LightPoint& light() const { return light_; }
   const ViewErrors& errors() const { return errors_; }
 
  private:
-  static constexpr float kMostLayers = 8;
-  static constexpr std::uint32_t kCells = 64;  ///< of a face, along a side
+  static constexpr float kMostLayers = 5;
 
   /// The end of the shortest of some rays: the nearer the start, the less its direction's rounding moves the end.
   void find_light() {
@@ -238,7 +191,7 @@ class LightRays {
     run_.count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
   }
 
-  /// Picks the run's rays of a face, and groups them.
+  /// Picks the run's rays of a face, and cuts them into groups.
   void take_face(std::uint32_t number) {
     const Face face(number);
     const RayTag f;
@@ -262,199 +215,20 @@ class LightRays {
     const std::size_t count = scratch_.ray_count - first;
     if (count == 0) return;
     scratch_.segments.push_back({number, first, count});
-    if (!is_sorting_) split(number, first, count, spread.get());
-  }
-
-  /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
-  void sort() {
-    auto& ends = scratch_.counts;
-    ends.assign(kViewFaces * kCells * kCells + 1, 0);
-    for_rays([&](std::uint32_t cell, std::size_t) { ++ends[cell + 1]; });
-    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
-    scratch_.records.resize(scratch_.ray_count + kRowLanes);
-    for_rays([&](std::uint32_t cell, std::size_t i) {
-      scratch_.records[ends[cell]++] = {scratch_.u[i], scratch_.v[i], scratch_.w[i], scratch_.name[i]};
-    });
-    for (std::size_t i = 0; i < scratch_.ray_count; ++i) {
-      const auto& r = scratch_.records[i];
-      scratch_.u[i] = r.u;
-      scratch_.v[i] = r.v;
-      scratch_.w[i] = r.w;
-      scratch_.name[i] = r.name;
-    }
-    for (auto& face : scratch_.faces) face.groups.clear();
-    std::size_t first = 0;
-    for (std::uint32_t cell = 0; cell + 1 < ends.size(); ++cell) {
-      const std::size_t count = ends[cell] - first;
-      if (count != 0) split(cell / (kCells * kCells), first, count, bounds(first, count));
-      first = ends[cell];
-    }
-  }
-
-  static std::uint32_t spread_bits(std::uint32_t x) {  // a zero before each of 8 bits
-    x = (x | x << 4) & 0x0F0Fu;
-    x = (x | x << 2) & 0x3333u;
-    return (x | x << 1) & 0x5555u;
-  }
-  template <class Each>
-  void for_rays(Each&& each) const {
-    const auto place = [](float x) {
-      return std::min(static_cast<std::uint32_t>(std::max(x + 1, 0.0f) * (0.5f * kCells)), kCells - 1);
-    };
-    for (const auto& segment : scratch_.segments) {
-      const std::uint32_t base = segment.face * kCells * kCells;
-      for (std::size_t i = segment.first; i < segment.first + segment.count; ++i)
-        each(base + (spread_bits(place(scratch_.u[i])) | spread_bits(place(scratch_.v[i])) << 1), i);
-    }
-  }
-
-  template <class Each>
-  static HWY_INLINE void for_lanes(std::size_t first, std::size_t count, Each&& each) {
-    const RayTag f;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(f)) each(first + i, hn::FirstN(f, count - i));
-  }
-
-  /// Smallest and largest of a rectangle, lane by lane.
-  struct Spread {
-    RayVec low_u, high_u, low_v, high_v;
-
-    Spread() {
-      const RayTag f;
-      low_u = low_v = hn::Set(f, std::numeric_limits<float>::infinity());
-      high_u = high_v = hn::Neg(low_u);
-    }
-    HWY_INLINE void add(RayVec u, RayVec v, RayMask use) {
-      low_u = hn::IfThenElse(use, hn::Min(low_u, u), low_u);
-      high_u = hn::IfThenElse(use, hn::Max(high_u, u), high_u);
-      low_v = hn::IfThenElse(use, hn::Min(low_v, v), low_v);
-      high_v = hn::IfThenElse(use, hn::Max(high_v, v), high_v);
-    }
-    Rectangle get() const {
-      const RayTag f;
-      return {hn::GetLane(hn::MinOfLanes(f, low_u)), hn::GetLane(hn::MaxOfLanes(f, high_u)),
-              hn::GetLane(hn::MinOfLanes(f, low_v)), hn::GetLane(hn::MaxOfLanes(f, high_v))};
-    }
-  };
-
-  Rectangle bounds(std::size_t first, std::size_t count) const {
-    const RayTag f;
-    Spread spread;
-    for_lanes(first, count, [&](std::size_t i, RayMask use) {
-      spread.add(hn::LoadU(f, scratch_.u.data() + i), hn::LoadU(f, scratch_.v.data() + i), use);
-    });
-    return spread.get();
-  }
-
-  /// Cuts the rectangle in the middle of its longer side, down to few rays.
-  void split(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
-    if (count <= kGroupRays) {
-      add_group(face, first, count, r);
-      return;
-    }
-    const bool by_u = r.high_u - r.low_u >= r.high_v - r.low_v;
-    Rectangle low, high;
-    std::size_t lows = partition(first, count, by_u, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v),
-                                 low, high);
-    if (lows == 0 || lows == count) {  // starts that cannot be told apart
-      lows = kGroupRays;
-      low = high = r;
-    }
-    split(face, first, lows, low);
-    split(face, first + lows, count - lows, high);
-  }
-
-  std::size_t partition(std::size_t first, std::size_t count, bool by_u, float middle, Rectangle& low,
-                        Rectangle& high) {
-    const RayTag f;
-    const RayBitsTag n;
-    auto& above_rows = scratch_.above;
-    if (above_rows[0].size() < count + kRowLanes) {
-      for (auto& row : above_rows) row.resize(count + kRowLanes);
-      scratch_.above_name.resize(count + kRowLanes);
-    }
-    float* const rows[3] = {scratch_.u.data(), scratch_.v.data(), scratch_.w.data()};
-    std::size_t low_end = first, high_end = 0;
-    Spread low_spread, high_spread;
-    for_lanes(first, count, [&](std::size_t i, RayMask use) {
-      const RayVec x[3] = {hn::LoadU(f, rows[0] + i), hn::LoadU(f, rows[1] + i), hn::LoadU(f, rows[2] + i)};
-      const auto name = hn::LoadU(n, scratch_.name.data() + i);
-      const auto below = hn::And(use, hn::Lt(by_u ? x[0] : x[1], hn::Set(f, middle)));
-      const auto above = hn::AndNot(below, use);
-      low_spread.add(x[0], x[1], below);
-      high_spread.add(x[0], x[1], above);
-      for (std::size_t k = 0; k < 3; ++k) hn::StoreU(hn::Compress(x[k], above), f, above_rows[k].data() + high_end);
-      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, scratch_.above_name.data() + high_end);
-      const auto lows = hn::CountTrue(f, below);
-      high_end += hn::CountTrue(f, above);
-      const auto first_lows = hn::FirstN(f, lows);
-      for (std::size_t k = 0; k < 3; ++k) hn::BlendedStore(hn::Compress(x[k], below), first_lows, f, rows[k] + low_end);
-      hn::BlendedStore(hn::Compress(name, hn::RebindMask(n, below)), hn::RebindMask(n, first_lows), n,
-                       scratch_.name.data() + low_end);
-      low_end += lows;
-    });
-    for (std::size_t k = 0; k < 3; ++k) std::memcpy(rows[k] + low_end, above_rows[k].data(), high_end * sizeof(float));
-    std::memcpy(scratch_.name.data() + low_end, scratch_.above_name.data(), high_end * sizeof(std::int32_t));
-    low = low_spread.get();
-    high = high_spread.get();
-    return low_end - first;
-  }
-
-  void add_group(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
-    RayGroup group;
-    group.u = 0.5f * (r.low_u + r.high_u);
-    group.v = 0.5f * (r.low_v + r.high_v);
-    group.half_u = std::max(r.high_u - group.u, group.u - r.low_u);
-    group.half_v = std::max(r.high_v - group.v, group.v - r.low_v);
-    group.first = static_cast<std::uint32_t>(first);
-    group.count = static_cast<std::uint32_t>(count);
-    fit_plane(first, count, group);
-    scratch_.faces[face].groups.push_back(group);
-    overlap_.add(face, group);
-  }
-
-  /// A plane has a depth whose inverse is linear in (u, v): that of three starts bounds the others if they are in one.
-  void fit_plane(std::size_t first, std::size_t count, RayGroup& group) const {
-    const float* u = scratch_.u.data();
-    const float* v = scratch_.v.data();
-    const float* w = scratch_.w.data();
-    const std::size_t a = first, b = first + count / 3, c = first + 2 * count / 3;
-    const float bu = u[b] - u[a], bv = v[b] - v[a], bw = w[b] - w[a];
-    const float cu = u[c] - u[a], cv = v[c] - v[a], cw = w[c] - w[a];
-    const float det = bu * cv - bv * cu;
-    float slope_u = (bw * cv - bv * cw) / det, slope_v = (bu * cw - bw * cu) / det;
-    const float limit = 0x1p20f;
-    if (!(std::abs(slope_u) < limit * w[a] && std::abs(slope_v) < limit * w[a])) slope_u = slope_v = 0;
-    const RayTag f;
-    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    auto low = infinity, high = hn::Neg(infinity), low_w = infinity, high_w = high;
-    const auto su = hn::Set(f, slope_u), sv = hn::Set(f, slope_v);
-    for_lanes(first, count, [&](std::size_t i, RayMask use) {
-      const auto x = hn::LoadU(f, w + i);
-      const auto rest = hn::NegMulAdd(sv, hn::LoadU(f, v + i), hn::NegMulAdd(su, hn::LoadU(f, u + i), x));
-      low = hn::IfThenElse(use, hn::Min(low, rest), low);
-      high = hn::IfThenElse(use, hn::Max(high, rest), high);
-      low_w = hn::IfThenElse(use, hn::Min(low_w, x), low_w);
-      high_w = hn::IfThenElse(use, hn::Max(high_w, x), high_w);
-    });
-    const float least = hn::GetLane(hn::MinOfLanes(f, low)), most = hn::GetLane(hn::MaxOfLanes(f, high));
-    const float least_w = hn::GetLane(hn::MinOfLanes(f, low_w));
-    group.nearest = hn::GetLane(hn::MaxOfLanes(f, high_w));
-    group.farthest = least_w;
-    const bool is_tighter = most - least < 0.5f * (group.nearest - least_w);
-    group.slope_u = is_tighter ? slope_u : 0;
-    group.slope_v = is_tighter ? slope_v : 0;
-    group.base = is_tighter ? least : least_w;
+    if (!is_sorting_) groups_.split(number, first, count, spread.get());
   }
 
   RaySpan rays_;
   LightViewScratch& scratch_;
+  LightGroups groups_;
   float scale_;
   LightPoint light_;
   ViewErrors errors_;
-  alignas(64) float end_errors_[kRowLanes] = {}, start_errors_[kRowLanes] = {}, most_errors_[kRowLanes] = {};
+  alignas(64) float end_errors_[kRowLanes] = {};
+  alignas(64) float start_errors_[kRowLanes] = {};
+  alignas(64) float most_errors_[kRowLanes] = {};
   RayRun run_;
   bool is_sorting_ = false;
-  Overlap overlap_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -18,7 +18,11 @@
 
 #include <hwy/highway.h>
 
-#include "kernels/light_rays-inl.h"
+#include <cstring>
+#include <limits>
+
+#include "kernels/light_view.h"
+#include "kernels/ray_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -49,7 +53,7 @@ class TriangleLanes {
       : rows_(rows), face_(face), light_(light), errors_(errors) {}
 
   /// Rectangles and nearest points on a face: a triangle that spans it or comes too near has no bounds.
-  void bound(GroupRows& out) const {
+  void bound(ViewRows& out) const {
     const RayTag f;
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
     const auto off = hn::Set(f, errors_.most);
@@ -68,14 +72,14 @@ class TriangleLanes {
       const auto bounded = hn::Gt(least, hn::Mul(off, hn::Set(f, 16.0f)));
       const auto w = hn::Div(hn::Set(f, 1 + 0x1p-18f), least);
       const auto margin = hn::MulAdd(hn::Mul(off, hn::Set(f, 4.0f)), w, hn::Set(f, 0x1p-19f));
-      const auto put = [&](GroupRows::Row row, RayVec x, RayVec otherwise) {
+      const auto put = [&](ViewRows::Row row, RayVec x, RayVec otherwise) {
         hn::Store(hn::IfThenElse(bounded, x, otherwise), f, out.rows[row] + i);
       };
-      put(GroupRows::low_u, hn::Sub(low_u, margin), hn::Neg(infinity));
-      put(GroupRows::high_u, hn::Add(high_u, margin), infinity);
-      put(GroupRows::low_v, hn::Sub(low_v, margin), hn::Neg(infinity));
-      put(GroupRows::high_v, hn::Add(high_v, margin), infinity);
-      put(GroupRows::farthest, w, infinity);
+      put(ViewRows::low_u, hn::Sub(low_u, margin), hn::Neg(infinity));
+      put(ViewRows::high_u, hn::Add(high_u, margin), infinity);
+      put(ViewRows::low_v, hn::Sub(low_v, margin), hn::Neg(infinity));
+      put(ViewRows::high_v, hn::Add(high_v, margin), infinity);
+      put(ViewRows::depth, w, infinity);
     }
   }
 

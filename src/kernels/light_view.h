@@ -1,55 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadow rays as seen from the light that they end at.
+// Shadow rays as seen from the light that they end at: what one call works on, and what it needs beside the scene.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <vector>
 
-#include "core/math.h"
 #include "index/triangle_bvh.h"
+#include "index/wide_tree.h"
 
 namespace umbrix::detail {
 
-/// Which way the view looks: along an axis, or against it. A point's coordinates there are its offsets from the light on
-/// the other two axes over its depth, and one over the depth.
+/// One of six pictures that the light sees, along an axis or against it. A point is at (u, v), its offsets from the
+/// light on the other two axes over its depth; w is one over the depth.
 struct Face {
-  std::uint32_t axis = 0;
-  float sign = 1;
+  std::uint32_t axis;
+  float sign;
 
   explicit Face(std::uint32_t number) : axis(number / 2), sign(number % 2 ? -1.0f : 1.0f) {}
-  std::uint32_t u_axis() const { return (axis + 1) % 3; }
-  std::uint32_t v_axis() const { return (axis + 2) % 3; }
+  std::uint32_t u_axis() const noexcept { return (axis + 1) % 3; }
+  std::uint32_t v_axis() const noexcept { return (axis + 2) % 3; }
 };
 inline constexpr std::uint32_t kViewFaces = 6;
+
+/// Where the rays end, as a sum: offsets from it are rounded as if it were a float.
+struct LightPoint {
+  float high[3] = {}, low[3] = {};
+};
+
+/// How far the ends of true segments may be from what is computed, over the depth of the start; and at most, anywhere.
+struct ViewErrors {
+  float start = 0, end = 0;
+  float most = 0;
+};
 
 /// The most rays of a group.
 inline constexpr std::uint32_t kGroupRays = 48;
 
 /// Rays of one face whose starts are near each other as the light sees them.
 struct RayGroup {
-  float u, v, half_u, half_v;  ///< the rectangle that they are in
-  float slope_u, slope_v, base;  ///< no start is farther than where one over the depth is base + slope_u u + slope_v v
-  float nearest, farthest;       ///< the largest and the smallest one over the depth
-  float reach;  ///< the largest depth
-  std::uint32_t first, count;
+  float u, v, half_u, half_v;    ///< the rectangle that they are in
+  float slope_u, slope_v, base;  ///< no start is farther than where w is base + slope_u u + slope_v v
+  float nearest, farthest;       ///< the largest and the smallest w
+  float reach;                   ///< the largest depth
+  std::uint32_t first, count;    ///< in the order of groups
 };
 
-/// Groups side by side, by what boxes are tested against: the rectangle and the farthest start.
-struct alignas(64) GroupRows {
-  enum Row : std::uint32_t { low_u, high_u, low_v, high_v, farthest, kRows };
+/// Rectangles and depths side by side.
+struct alignas(64) ViewRows {
+  enum Row : std::uint32_t { low_u, high_u, low_v, high_v, depth, kRows };
 
-  float rows[kRows][kRowLanes];
+  float rows[kRows][kRowLanes];  ///< depth as w: of groups the farthest start, of triangles the nearest point
 };
 
-/// Triangles side by side, prepared for one light: for a start that the light sees at (u, v), w = 1 over the depth, each
-/// value is a linear function of r = (u, v, 1).
+/// Triangles prepared for one face. Each value is a linear function of r = (u, v, 1).
 struct alignas(64) LightTriangles {
-  float edge[3][3][kRowLanes];  ///< by edge and axis; r is inside of an edge where its product with it is positive
-  float plane[3][kRowLanes];    ///< its product with r is one over the plane's depth at r
-  float edge_error[2][kRowLanes];   ///< of an edge's product: [0] + [1] / w
-  float plane_error[2][kRowLanes];  ///< of the plane's product less w: [0] + [1] w
+  float edge[3][3][kRowLanes];      ///< by edge and coefficient: positive inside of the edge
+  float plane[3][kRowLanes];        ///< w of the triangle's plane
+  float edge_error[2][kRowLanes];   ///< of an edge's value: [0] + [1] / w
+  float plane_error[2][kRowLanes];  ///< of the plane's value less w: [0] + [1] w
   std::uint32_t id[kRowLanes];
 };
 
@@ -57,18 +68,17 @@ struct alignas(64) LightTriangles {
 struct Meeting {
   std::uint32_t group;
   std::uint32_t triangles;
-  std::uint32_t lanes;    ///< sides known
-  std::uint32_t edge_on;  ///< the light is too near their plane: edges are as they come, there is no plane
+  std::uint16_t lanes;
+  std::uint16_t edge_on;  ///< the light is too near to their planes: no side is known of edges, and there is no plane
 };
 
-/// Memory for one call, used again by the next.
+/// Memory of one call, used again by the next.
 struct LightViewScratch {
   struct FaceGroups {
     std::vector<RayGroup> groups;
-    std::vector<GroupRows> rows;
-    std::vector<std::uint32_t> live;  ///< by row: groups that are not answered yet
+    std::vector<ViewRows> rows;
+    std::vector<std::uint32_t> live;  ///< by row: groups that are not answered as a whole
   };
-
   /// Rays of one face that were read together.
   struct Segment {
     std::uint32_t face;
@@ -78,23 +88,28 @@ struct LightViewScratch {
     float u, v, w;
     std::int32_t name;
   };
+  /// Node and leaf visits that a group's rays share.
+  struct SharedWork {
+    std::uint64_t nodes = 0, leaves = 0;
+  };
 
-  std::vector<float> u, v, w;      ///< of rays in the order of groups
-  std::vector<std::int32_t> name;  ///< their places in the caller's order
+  std::vector<float> u, v, w;       ///< of rays, in the order of groups once there are groups
+  std::vector<std::int32_t> name;   ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
-  std::vector<Record> records;
-  std::vector<float> above[3];
+  std::vector<Record> records;            ///< for sorting
+  std::vector<std::uint32_t> counts;      ///< for counting sorts
+  std::vector<float> above[3];            ///< for cutting groups
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
+  std::vector<std::uint64_t> lists;       ///< of the walk: rows of groups and lanes
   std::vector<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
-  std::vector<std::uint32_t> counts;
-  std::vector<std::uint64_t> lists;
-  std::vector<std::uint32_t> odd;  ///< rays that the view is not for
+  std::vector<SharedWork> shared;         ///< by group; only for queries that count
+  std::vector<std::uint32_t> odd;         ///< rays that do not end at the light, or are nothing for floats
 
-  /// Forgets all rays, and makes room.
+  /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
     if (u.size() < room) {
       u.resize(room);
@@ -107,16 +122,26 @@ struct LightViewScratch {
     segments.clear();
     for (FaceGroups& face : faces) face.groups.clear();
   }
+  std::size_t group_count() const noexcept {
+    std::size_t count = 0;
+    for (const FaceGroups& face : faces) count += face.groups.size();
+    return count;
+  }
 };
 
-/// The hierarchy, and memory that calls borrow.
-class LightViewTable : public SideTable {
+/// The wide tree, for rays that a view of the light is not for; the hierarchy that the view walks; and memory that calls
+/// borrow. Any threads.
+class LightViewTable : public WideTree {
  public:
-  explicit LightViewTable(std::unique_ptr<TriangleBvh> bvh) : bvh_(std::move(bvh)) {}
+  /// Throws std::bad_alloc, or what the executor throws.
+  LightViewTable(const Tree& tree, const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count,
+                 const Executor* executor)
+      : WideTree(tree, triangles), bvh_(triangles, kept, kept_count, tree.scale_exponent, executor) {}
 
-  const TriangleBvh& bvh() const noexcept { return *bvh_; }
-  std::uint64_t bytes() const noexcept override { return bvh_->bytes(); }
+  const TriangleBvh& bvh() const noexcept { return bvh_; }
+  std::uint64_t bytes() const noexcept override { return WideTree::bytes() + bvh_.bytes(); }
 
+  /// Throws std::bad_alloc.
   std::unique_ptr<LightViewScratch> borrow() const {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -134,7 +159,7 @@ class LightViewTable : public SideTable {
   }
 
  private:
-  std::unique_ptr<TriangleBvh> bvh_;
+  TriangleBvh bvh_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<LightViewScratch>> idle_;
 };

@@ -88,14 +88,18 @@ class GroupTest {
 };
 
 /// Finds what the groups' rays may meet.
+template <bool kCounts>
 class LightWalk {
  public:
+  /// `may_cover`: a triangle in front of a whole group answers all of its rays.
   LightWalk(const TriangleBvh& bvh, const LightPoint& light, const ViewErrors& errors, bool may_cover,
             LightViewScratch& scratch)
       : bvh_(bvh), light_(light), errors_(errors), may_cover_(may_cover), scratch_(scratch) {}
 
-  /// Fills the scratch's triangles and meetings.
-  void walk() {
+  /// Fills the scratch's triangles and meetings; false if there are so many that rays had better be walked otherwise.
+  bool walk() {
+    room_ = kMostMet * scratch_.ray_count + 4096;
+    if constexpr (kCounts) scratch_.shared.assign(scratch_.group_count(), {});
     scratch_.triangle_count = 0;
     scratch_.meetings.clear();
     first_group_ = 0;
@@ -109,11 +113,16 @@ class LightWalk {
       for (std::uint32_t row = 0; row < groups.rows.size(); ++row)
         lists.push_back(static_cast<std::uint64_t>(row) << 32 | groups.live[row]);
       visit(here, 0, 0, lists.size(), lists.size());
+      if (room_ == 0) return false;
       first_group_ += static_cast<std::uint32_t>(groups.groups.size());
     }
+    return true;
   }
 
  private:
+  /// So many times a triangle may meet a group for each ray.
+  static constexpr std::size_t kMostMet = 8;
+
   struct Here {
     Face face;
     LightViewScratch::FaceGroups& groups;
@@ -138,11 +147,11 @@ class LightWalk {
       const RayGroup& g = face.groups[used ? i : 0];
       auto& row = face.rows[i / kRowLanes].rows;
       const std::size_t lane = i % kRowLanes;
-      row[GroupRows::low_u][lane] = g.u - g.half_u;
-      row[GroupRows::high_u][lane] = g.u + g.half_u;
-      row[GroupRows::low_v][lane] = g.v - g.half_v;
-      row[GroupRows::high_v][lane] = g.v + g.half_v;
-      row[GroupRows::farthest][lane] = g.farthest;
+      row[ViewRows::low_u][lane] = g.u - g.half_u;
+      row[ViewRows::high_u][lane] = g.u + g.half_u;
+      row[ViewRows::low_v][lane] = g.v - g.half_v;
+      row[ViewRows::high_v][lane] = g.v + g.half_v;
+      row[ViewRows::depth][lane] = g.farthest;
       if (used) face.live[i / kRowLanes] |= 1u << lane;
     }
   }
@@ -173,16 +182,16 @@ class LightWalk {
     return true;
   }
 
-  static HWY_INLINE std::uint32_t meet(const GroupRows& groups, const ViewBox& box) {
+  static HWY_INLINE std::uint32_t meet(const ViewRows& groups, const ViewBox& box) {
     const RayTag f;
     std::uint32_t result = 0;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto row = [&](GroupRows::Row r) { return hn::Load(f, groups.rows[r] + i); };
-      const auto in_u = hn::And(hn::Le(row(GroupRows::low_u), hn::Set(f, box.high_u)),
-                                hn::Ge(row(GroupRows::high_u), hn::Set(f, box.low_u)));
-      const auto in_v = hn::And(hn::Le(row(GroupRows::low_v), hn::Set(f, box.high_v)),
-                                hn::Ge(row(GroupRows::high_v), hn::Set(f, box.low_v)));
-      const auto before = hn::Le(row(GroupRows::farthest), hn::Set(f, box.nearest));
+      const auto row = [&](ViewRows::Row r) { return hn::Load(f, groups.rows[r] + i); };
+      const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, box.high_u)),
+                                hn::Ge(row(ViewRows::high_u), hn::Set(f, box.low_u)));
+      const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, box.high_v)),
+                                hn::Ge(row(ViewRows::high_v), hn::Set(f, box.low_v)));
+      const auto before = hn::Le(row(ViewRows::depth), hn::Set(f, box.nearest));
       result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
     }
     return result;
@@ -204,6 +213,7 @@ class LightWalk {
       const auto row = static_cast<std::uint32_t>(lists[i] >> 32);
       const std::uint32_t lanes = static_cast<std::uint32_t>(lists[i]) & here.groups.live[row];
       if (lanes == 0) continue;
+      if constexpr (kCounts) share(row, lanes, false);
       for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
         if (!on_side[child]) continue;
         const std::uint32_t met = lanes & meet(here.groups.rows[row], boxes[child]);
@@ -215,6 +225,7 @@ class LightWalk {
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
       const std::size_t list = top + child * count;
       if (ends[child] == list) continue;
+      if (room_ == 0) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
         visit_rows(here, bvh_.rows(next & ~BvhNode::kLeaf), list, ends[child] - list);
@@ -229,19 +240,20 @@ class LightWalk {
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
-    GroupRows bounds;
+    ViewRows bounds;
     lanes.bound(bounds);
     const std::uint32_t all = (1u << rows.count) - 1;
     std::uint32_t edge_on = 0;
     bool is_prepared = false, is_kept = false;
     for (std::size_t i = first; i < first + count; ++i) {
       const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
+      if constexpr (kCounts) share(row, static_cast<std::uint32_t>(scratch_.lists[i]), true);
       for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
         const std::uint32_t lane = first_lane(rest);
         const auto& g = here.groups.rows[row].rows;
-        const ViewBox box{g[GroupRows::low_u][lane], g[GroupRows::high_u][lane], g[GroupRows::low_v][lane],
-                          g[GroupRows::high_v][lane], 0};
-        const std::uint32_t near = all & meet_triangles(bounds, box, g[GroupRows::farthest][lane]);
+        const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
+                          g[ViewRows::high_v][lane], 0};
+        const std::uint32_t near = all & meet_triangles(bounds, box, g[ViewRows::depth][lane]);
         if (near == 0) continue;
         if (!is_prepared) {
           if (scratch_.triangles.size() <= scratch_.triangle_count) scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
@@ -257,22 +269,32 @@ class LightWalk {
         }
         is_kept = true;
         scratch_.meetings.push_back({first_group_ + group, scratch_.triangle_count,
-                                     result.met & ~edge_on, result.met & edge_on});
+                                     static_cast<std::uint16_t>(result.met & ~edge_on),
+                                     static_cast<std::uint16_t>(result.met & edge_on)});
+        room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
       }
     }
     if (is_kept) ++scratch_.triangle_count;
   }
 
-  static HWY_INLINE std::uint32_t meet_triangles(const GroupRows& triangles, const ViewBox& group, float farthest) {
+  void share(std::uint32_t row, std::uint32_t lanes, bool is_leaf) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      LightViewScratch::SharedWork& work = scratch_.shared[first_group_ + row * kRowLanes + first_lane(lanes)];
+      ++work.nodes;
+      if (is_leaf) ++work.leaves;
+    }
+  }
+
+  static HWY_INLINE std::uint32_t meet_triangles(const ViewRows& triangles, const ViewBox& group, float farthest) {
     const RayTag f;
     std::uint32_t result = 0;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto row = [&](GroupRows::Row r) { return hn::Load(f, triangles.rows[r] + i); };
-      const auto in_u = hn::And(hn::Le(row(GroupRows::low_u), hn::Set(f, group.high_u)),
-                                hn::Ge(row(GroupRows::high_u), hn::Set(f, group.low_u)));
-      const auto in_v = hn::And(hn::Le(row(GroupRows::low_v), hn::Set(f, group.high_v)),
-                                hn::Ge(row(GroupRows::high_v), hn::Set(f, group.low_v)));
-      const auto before = hn::Ge(row(GroupRows::farthest), hn::Set(f, farthest));
+      const auto row = [&](ViewRows::Row r) { return hn::Load(f, triangles.rows[r] + i); };
+      const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, group.high_u)),
+                                hn::Ge(row(ViewRows::high_u), hn::Set(f, group.low_u)));
+      const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, group.high_v)),
+                                hn::Ge(row(ViewRows::high_v), hn::Set(f, group.low_v)));
+      const auto before = hn::Ge(row(ViewRows::depth), hn::Set(f, farthest));
       result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
     }
     return result;
@@ -284,6 +306,7 @@ class LightWalk {
   bool may_cover_;
   LightViewScratch& scratch_;
   std::uint32_t first_group_ = 0;
+  std::size_t room_ = 0;  ///< for meetings of a triangle and a group
 };
 
 }  // namespace HWY_NAMESPACE

@@ -16,7 +16,6 @@
   KERNEL(kRopesKernel)         \
   KERNEL(kWideKernel)          \
   KERNEL(kBeamKernel)          \
-  KERNEL(kLightViewKernel)     \
   KERNEL(kFarFirstKernel)      \
   KERNEL(kSatoBoxKernel)       \
   KERNEL(kSatoAreaKernel)      \

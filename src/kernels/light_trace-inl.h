@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// All rays of a call as the light sees them: read into groups, one walk for all groups, packets of rays against what
+// their group may meet.
+
+#if defined(UMBRIX_KERNELS_LIGHT_TRACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_LIGHT_TRACE_INL_H_
+#undef UMBRIX_KERNELS_LIGHT_TRACE_INL_H_
+#else
+#define UMBRIX_KERNELS_LIGHT_TRACE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "core/float_mode.h"
+#include "kernels/light_packets-inl.h"
+#include "kernels/light_rays-inl.h"
+#include "kernels/light_walk-inl.h"
+#include "kernels/tree_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// More rays are answered in parts.
+inline constexpr std::size_t kMostViewRays = std::size_t{1} << 20;
+
+/// One call's view.
+template <class Counts>
+class LightTrace {
+ public:
+  LightTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
+
+  /// Answers all rays. False, with nothing done, if they are not for it: there are few, they do not end at one light,
+  /// the light sees each among very many triangles, or there is no memory.
+  bool trace(const GroupRays& rays) {
+    if (rays.rays.count < kFewestRays || rays.rays.count > kMostViewRays) return false;
+    if (std::abs(scene_.tree->scale_exponent) > kMostScale || table_.bvh().empty()) return false;
+    const DefaultFloatMode mode;
+    try {
+      std::unique_ptr<LightViewScratch> scratch = table_.borrow();
+      const bool is_done = trace(rays, *scratch);
+      table_.give_back(std::move(scratch));
+      return is_done;
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+  }
+
+ private:
+  static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
+  /// Fewer rays cost less otherwise.
+  static constexpr std::size_t kFewestRays = 128;
+  /// Sorting pays where many rays come to each direction.
+  static constexpr std::size_t kSortedRays = 1u << 16;
+  /// So far the scene's scale is from 1 that a denormal of the host could matter.
+  static constexpr int kMostScale = 60;
+
+  bool trace(const GroupRays& rays, LightViewScratch& scratch) {
+    LightRays light_rays(*scene_.tree, rays.rays, scratch);
+    if (!light_rays.read()) return false;
+    const bool may_cover = !rays.skip && Filter(scene_, rays.mask).passes_all();
+    const auto walk = [&] {
+      return LightWalk<kCounts>(table_.bvh(), light_rays.light(), light_rays.errors(), may_cover, scratch).walk();
+    };
+    if (!walk() && !(rays.rays.count >= kSortedRays && light_rays.sort() && walk())) return false;
+
+    std::vector<Counts> each(kCounts ? rays.rays.count : 0);
+    std::memset(rays.out, 0, rays.rays.count);
+    LightPackets<Counts>(scene_, rays, scratch, each).trace();
+    trace_odd(rays, scratch, each);
+    deliver(rays, each);
+    return true;
+  }
+
+  void trace_odd(const GroupRays& rays, const LightViewScratch& scratch, std::vector<Counts>& each) const {
+    using Single = TreeKernel<StackWalk>;
+    Filter filter(scene_, rays.mask);
+    typename Single::State state(scene_);
+    NoCounts none;
+    for (const std::uint32_t i : scratch.odd) {
+      if (rays.skip) filter.set_skip(rays.skip[i]);
+      if constexpr (kCounts)
+        rays.out[i] = Single::occluded(scene_, filter, rays.rays[i], state, each[i]);
+      else
+        rays.out[i] = Single::occluded(scene_, filter, rays.rays[i], state, none);
+    }
+  }
+
+  static void deliver(const GroupRays& rays, const std::vector<Counts>& each) {
+    const std::size_t count = rays.rays.count;
+    if (rays.routes) std::fill(rays.routes, rays.routes + count, RayRoute::beam);
+    if (rays.route_rays) rays.route_rays[static_cast<std::size_t>(RayRoute::beam)] += count;
+    if constexpr (kCounts) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const RayCounts& work = each[i].counts;
+        const bool occluded = rays.out[i] != 0;
+        if (rays.each) rays.each[i] = work;
+        if (!rays.sums) continue;
+        (occluded ? rays.sums->counts.occluded : rays.sums->counts.unoccluded) += work;
+        rays.sums->by_route[static_cast<std::size_t>(RayRoute::beam)][occluded ? 1 : 0] += work;
+      }
+    }
+  }
+
+  const SceneView& scene_;
+  const LightViewTable& table_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
