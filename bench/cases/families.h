@@ -44,6 +44,10 @@ CaseData inside_thin_walls(float thickness, std::uint64_t seed, std::size_t ray_
 enum class LightPlace { inside, on_face, at_vertex, on_edge, on_split_plane, outside, directional };
 CaseData light_at(LightPlace place, std::uint64_t seed, std::size_t ray_count);
 
+/// All rays of a scene go to one light, past vertices, edges and planes as it sees them.
+enum class OneLight { anywhere, in_plane, at_vertex, near_triangle, far_off };
+CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count);
+
 // huge.cpp: `count` triangles
 CaseData huge_degenerate_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count);
 CaseData huge_soup_with_one_bad(std::size_t count, std::uint64_t seed, std::size_t ray_count);

@@ -94,6 +94,25 @@ void add_lights(std::vector<Case>& table) {
   }
 }
 
+void add_one_light(std::vector<Case>& table) {
+  struct Light {
+    const char* name;
+    OneLight kind;
+    const char* summary;
+  };
+  const Light lights[] = {{"one_light", OneLight::anywhere, "all rays to one light, past what it sees at its edge"},
+                          {"one_light_in_plane", OneLight::in_plane, "the same, the light in planes of triangles"},
+                          {"one_light_at_vertex", OneLight::at_vertex, "the same, the light at a vertex"},
+                          {"one_light_near", OneLight::near_triangle, "the same, the light next to a triangle"},
+                          {"one_light_far", OneLight::far_off, "the same, the light 10 to 10000 sizes away"}};
+  for (const Light& light : lights) {
+    Case c = plain(24, light.name, 1e6, nullptr, light.summary);
+    c.make = [kind = light.kind](std::uint64_t seed, std::size_t rays) { return to_one_light(kind, seed, rays); };
+    c.rays_per_scene = 4'000;
+    table.push_back(std::move(c));
+  }
+}
+
 // Row 27: where claims end is what the thinner ones tell.
 void add_thin_walls(std::vector<Case>& table) {
   struct Wall {
@@ -208,6 +227,7 @@ std::vector<Case> all_cases(double size) {
   add(plain(23, "flat_scene", 1e6, flat_scene, "all triangles in one plane across an axis"));
   add(plain(23, "tilted_flat_scene", 1e6, tilted_flat_scene, "all triangles in one tilted plane"));
   add_lights(table);
+  add_one_light(table);
   add(plain(24, "far_origins", 1e6, far_origins, "from 10 to 1e12 extents outside"));
   add(plain(25, "no_distance", 1e5, no_distance, "the light at the point itself or one unit in the last place off"));
   add(plain(25, "interval_ends", 1e6, interval_ends, "tmin or tmax within 2 units in the last place of a hit"));

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Many rays to the same light, for tracers that make use of that: past what the light sees at the very edge.
+#include <cmath>
+#include <limits>
+
+#include "cases/families.h"
+#include "cases/meshes.h"
+
+namespace umbrix::cases {
+namespace {
+
+/// Meshes, sheets in planes across axes, and loose triangles, at sizes of their own.
+Triangles seen_scene(Random& random) {
+  Triangles all = soup(200, 1, 0.4f, random);
+  const auto put = [&](const Triangles& more) { all.insert(all.end(), more.begin(), more.end()); };
+  put(icosphere(2, 0.4f, random.chance(0.5) ? 0.3f : 0.0f, random.in_cube(0.5f), random).triangles);
+  put(torus(12, 9, 0.5f, 0.15f));
+  put(sheet(6, 1, -0.5f));
+  if (random.chance(0.5)) put(sheet(1, 0.75f, 0.25f));
+  const float size = random.chance(0.5) ? 1.0f : std::ldexp(1.0f, static_cast<int>(random.below(41)) - 20);
+  const Float3 offset = random.chance(0.5) ? Float3{0, 0, 0} : random.in_cube(random.magnitude(0, 3));
+  for (oracle::Triangle& t : all)
+    t = triangle(scale(add(vertex(t, 0), offset), size), scale(add(vertex(t, 1), offset), size),
+                 scale(add(vertex(t, 2), offset), size));
+  return all;
+}
+
+Float3 light_of(OneLight kind, const Triangles& triangles, Random& random) {
+  const oracle::Triangle& t = triangles[random.below(triangles.size())];
+  const Float3 a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
+  const Float3 other = vertex(triangles[random.below(triangles.size())], random.below(3));
+  switch (kind) {
+    case OneLight::in_plane:  // of one triangle at least, or of all of a sheet
+      if (random.chance(0.5)) return {other[0], other[1], vertex(triangles.back(), 0)[2]};
+      return add(a, add(scale(subtract(b, a), random.uniform(-3, 3)), scale(subtract(c, a), random.uniform(-3, 3))));
+    case OneLight::at_vertex:
+      return a;
+    case OneLight::near_triangle:
+      return between(between(between(a, b, 0.4f), c, 0.3f), other, random.magnitude(-7, -2));
+    case OneLight::far_off:
+      return between(a, other, random.sign() * random.magnitude(1, 4));
+    default:
+      return between(a, other, random.uniform(0, 2));
+  }
+}
+
+/// A start that the light sees at the target, or nearly: before it, behind it or just there.
+Float3 start_at(const Float3& light, const Float3& target, Random& random) {
+  float s = random.uniform(1, 3);
+  if (random.chance(0.2)) s = random.uniform(0.2f, 1);
+  if (random.chance(0.2)) s = 1 + random.sign() * random.magnitude(-8, -3);
+  Float3 start = between(light, target, s);
+  if (random.chance(0.5)) {
+    const float far = std::numeric_limits<float>::infinity();
+    float& x = start[random.below(3)];
+    for (std::size_t steps = random.below(4); steps > 0; --steps) x = std::nextafter(x, random.sign() * far);
+  }
+  return start;
+}
+
+Ray ray_from(const Float3& start, const Float3& light, Random& random) {
+  Ray ray = ray_to(start, light, 0, 1);
+  if (random.chance(0.5)) {  // normalised, or of any length
+    const Float3 d = subtract(light, start);
+    float length = std::hypot(d[0], d[1], d[2]);
+    if (random.chance(0.2)) length *= random.magnitude(-3, 3);
+    for (std::size_t k = 0; k < 3; ++k) ray.direction[k] = d[k] / length;
+    ray.tmax = length;
+  }
+  if (random.chance(0.05)) ray.tmin = ray.tmax * random.uniform(-0.5f, 0.5f);
+  if (random.chance(0.02)) ray.tmax *= random.uniform(0.1f, 1.5f);  // ends elsewhere
+  return ray;
+}
+
+}  // namespace
+
+CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count) {
+  Random random(seed);
+  CaseData data{seen_scene(random), {}};
+  const Float3 light = light_of(kind, data.triangles, random);
+  for (std::size_t i = 0; i < ray_count; ++i) {
+    const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
+    data.rays.push_back(ray_from(start_at(light, target, random), light, random));
+  }
+  return data;
+}
+
+}  // namespace umbrix::cases
