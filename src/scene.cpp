@@ -25,7 +25,7 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
   detail::Box bounds;
   BuildStats stats;
   detail::SceneView view{};
-  std::vector<std::unique_ptr<detail::SideTable>> side_tables;  ///< by the kernel's place in the table
+  std::vector<std::shared_ptr<const detail::SideTable>> side_tables;  ///< by the kernel's place in the table
   bool committed = false;
 
   void keep_or_drop(const detail::Triangle& triangle, std::uint32_t id);
@@ -156,6 +156,12 @@ const detail::SceneView* detail::SceneAccess::view(const Scene& scene) noexcept 
   return scene.impl_ && scene.impl_->committed ? &scene.impl_->view : nullptr;
 }
 
+std::shared_ptr<const detail::SideTable> detail::SceneAccess::default_side(const Scene& scene) noexcept {
+  const auto& tables = scene.impl_->side_tables;
+  const std::size_t place = kernel_place(KernelId{});
+  return place < tables.size() ? tables[place] : nullptr;
+}
+
 Status Scene::commit(const BuildOptions& options) {
   try {
     if (!impl_) impl_ = std::make_unique<Impl>();
@@ -173,7 +179,9 @@ Status Scene::commit(const BuildOptions& options) {
     s.make_view();
     s.committed = true;
     // The default kernel needs little and grows as rays want it; without it, it walks as "standard" does.
-    if (const Status prepared = prepare(KernelId{}); !prepared) s.side_tables.clear();
+    Training training;
+    training.executor = options.executor;
+    if (const Status prepared = prepare(KernelId{}, training); !prepared) s.side_tables.clear();
     return {};
   } catch (const std::bad_alloc&) {
     impl_.reset();
@@ -192,7 +200,7 @@ Status Scene::prepare(KernelId kernel, const Training& training, PrepareStats* s
   try {
     const auto start = std::chrono::steady_clock::now();
     impl_->side_tables.resize(detail::kernel_table_size());
-    std::unique_ptr<detail::SideTable>& slot = impl_->side_tables[detail::kernel_place(kernel)];
+    std::shared_ptr<const detail::SideTable>& slot = impl_->side_tables[detail::kernel_place(kernel)];
     slot.reset();
     slot = entry.prepare({impl_->view, training});
     if (stats) stats->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -15,7 +15,8 @@ namespace umbrix {
 
 /// How a frame's shadow rays are answered. Answers are the same; time is not.
 enum class FrameMethod {
-  best,      ///< remembered occluders for rays predicted occluded, one walk for a group of rays for the others
+  best,      ///< all rays of a tile as the light sees them, if it has 128 or more; where that does not serve, as cached
+  cached,    ///< remembered occluders for rays predicted occluded, one walk for a group of rays for the others
   paper,     ///< indexed walk for rays predicted occluded, links for the others (Liang & Huang 2019)
   indexed,   ///< the indexed walk for all
   linked,    ///< links for all

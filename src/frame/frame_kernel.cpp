@@ -10,6 +10,7 @@
 
 #include "kernels/group-inl.h"
 #include "kernels/indexed_walk-inl.h"
+#include "kernels/light_trace-inl.h"
 #include "kernels/link_walk-inl.h"
 #include "kernels/tree_kernel-inl.h"
 
@@ -87,9 +88,10 @@ class EachRay {
 
 template <class Counts>
 void trace_with(FrameTile& tile) {
-  if (tile.method == FrameMethod::best || tile.method == FrameMethod::beam) {
+  if (tile.tables.view && LightTrace<Counts>(tile.scene, *tile.tables.view).trace(tile.rays)) return;
+  if (tile.tables.wide) {
     Group<TileMemory, Counts> group(tile.scene, *tile.tables.wide, tile.rays, tile.memory,
-                                    tile.method == FrameMethod::best);
+                                    tile.method != FrameMethod::beam);
     group.trace();
     tile.tries = group.tries();
   } else {

@@ -4,14 +4,15 @@
 #include "frame/tile_memory.h"
 #include "index/links.h"
 #include "index/primitive_index.h"
-#include "index/wide_tree.h"
 #include "kernels/group_rays.h"
+#include "kernels/light_view.h"
 
 namespace umbrix::detail {
 
 /// What a frame's rays may use; what its method does not need is null.
 struct FrameTables {
   const WideTree* wide = nullptr;
+  const LightViewTable* view = nullptr;
   const Links* links = nullptr;
   const PrimitiveIndex* index = nullptr;
 };

@@ -70,7 +70,8 @@ void add(Confusion& sum, const Confusion& part) {
 
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
-  Impl(const detail::SceneView& the_scene, const FrameOptions& the_options) : scene(the_scene), options(the_options) {
+  Impl(const Scene& the_scene, const FrameOptions& the_options)
+      : scene(*detail::SceneAccess::view(the_scene)), options(the_options) {
     const detail::Tree& tree = *scene.tree;
     extent = std::ldexp(static_cast<double>(tree.root.largest_extent()), -tree.scale_exponent);
     if (!(extent > 0) || !std::isfinite(extent)) extent = 1;
@@ -79,7 +80,11 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
       regions.emplace(kRegionSlots);
       choose_memory(true);
     }
-    if (options.method == FrameMethod::best || options.method == FrameMethod::beam) {
+    if (options.method == FrameMethod::best) {
+      view_table = std::static_pointer_cast<const detail::LightViewTable>(detail::SceneAccess::default_side(the_scene));
+      tables.wide = tables.view = view_table.get();
+    }
+    if (!tables.wide && uses_groups()) {
       wide = std::make_unique<detail::WideTree>(tree, scene.triangles);
       tables.wide = wide.get();
     }
@@ -93,7 +98,14 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
 
   bool uses_index() const { return options.method == FrameMethod::paper || options.method == FrameMethod::indexed; }
 
-  bool remembers() const { return options.method == FrameMethod::best || options.method == FrameMethod::paper; }
+  bool uses_groups() const {
+    return options.method == FrameMethod::best || options.method == FrameMethod::cached ||
+           options.method == FrameMethod::beam;
+  }
+
+  bool remembers() const {
+    return options.method == FrameMethod::paper || (uses_groups() && options.method != FrameMethod::beam);
+  }
 
   bool learns_from_rays() const {
     return (tables.links && options.links == LinkMode::reached) ||
@@ -159,6 +171,7 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   std::optional<detail::OcclusionMemory> regions;  ///< by regions of the image, or by cells of space
   std::optional<detail::OcclusionMemory> points;   ///< by cells that are about a triangle large
   detail::MemoryUse use;
+  std::shared_ptr<const detail::LightViewTable> view_table;  ///< the scene's
   std::unique_ptr<detail::WideTree> wide;
   std::unique_ptr<detail::Links> links;
   std::unique_ptr<detail::PrimitiveIndex> index;
@@ -243,10 +256,10 @@ FrameTracer& FrameTracer::operator=(FrameTracer&&) noexcept = default;
 Status FrameTracer::start(const Scene& scene, const FrameOptions& options) {
   impl_.reset();
   if (Status status = check(options); !status) return status;
-  const detail::SceneView* view = detail::SceneAccess::view(scene);
-  if (!view) return {StatusCode::invalid_argument, "frame tracer: the scene is not committed"};
+  if (!detail::SceneAccess::view(scene))
+    return {StatusCode::invalid_argument, "frame tracer: the scene is not committed"};
   try {
-    impl_ = std::make_unique<Impl>(*view, options);
+    impl_ = std::make_unique<Impl>(scene, options);
     return {};
   } catch (const std::bad_alloc&) {
     return Status::out_of_memory("frame tracer: out of memory");

@@ -79,10 +79,9 @@ class Cutter {
     std::size_t at = whole.first;
     if (best.bin != 0) {
       const Places places(whole);
-      const auto middle = std::partition(begin + static_cast<std::ptrdiff_t>(whole.first),
-                                         begin + static_cast<std::ptrdiff_t>(whole.last), [&](const Reference& r) {
-                                           return Places::bin(places(r)[best.axis]) < best.bin;
-                                         });
+      const auto middle = std::partition(
+          begin + static_cast<std::ptrdiff_t>(whole.first), begin + static_cast<std::ptrdiff_t>(whole.last),
+          [&](const Reference& r) { return Places::bin(places(r)[best.axis]) < best.bin; });
       at = static_cast<std::size_t>(middle - begin);
     }
     // Middles that are all the same, or nearly: any halves will do.
@@ -287,7 +286,8 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
   nodes_ = std::move(top.nodes);
   rows_ = std::move(top.rows);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto first_node = static_cast<std::uint32_t>(nodes_.size()), first_row = static_cast<std::uint32_t>(rows_.size());
+    const auto first_node = static_cast<std::uint32_t>(nodes_.size()),
+               first_row = static_cast<std::uint32_t>(rows_.size());
     nodes_[below[i].node].child[below[i].lane] = first_node;
     for (BvhNode node : parts[i].nodes) {
       for (std::uint32_t& child : node.child) child += (child & BvhNode::kLeaf) != 0 ? first_row : first_node;

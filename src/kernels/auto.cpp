@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All rays to a light as the light sees them (light_trace-inl.h); what that is not for goes in groups that share a walk,
-// and first meets what blocked the rays before (group-inl.h). The default.
+// All rays to a light as the light sees them (light_trace-inl.h); what that is not for goes in groups that share a
+// walk, and first meets what blocked the rays before (group-inl.h). The default.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/auto.cpp"

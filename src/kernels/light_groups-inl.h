@@ -76,8 +76,8 @@ class LightGroups {
   /// How many layers of groups there are where there are any: what is left to be gained by sorting.
   float layers() const { return overlap_.layers(); }
 
-  /// Rays from `first` on, which are all of the face and within the rectangle: cuts it in the middle of its longer side,
-  /// down to few rays.
+  /// Rays from `first` on, which are all of the face and within the rectangle: cuts it in the middle of its longer
+  /// side, down to few rays.
   void split(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
     if (count <= kGroupRays) {
       add_group(face, first, count, r);
@@ -85,8 +85,8 @@ class LightGroups {
     }
     const bool by_u = r.high_u - r.low_u >= r.high_v - r.low_v;
     Rectangle low, high;
-    std::size_t lows = partition(first, count, by_u, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v),
-                                 low, high);
+    std::size_t lows =
+        partition(first, count, by_u, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v), low, high);
     if (lows == 0 || lows == count) {  // starts that cannot be told apart
       lows = kGroupRays;
       low = high = r;

@@ -42,9 +42,7 @@ HWY_INLINE RayVec dot(const LaneVec3& a, const LaneVec3& b) {
   return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
 }
 /// A bound of the length.
-HWY_INLINE RayVec length(const LaneVec3& a) {
-  return hn::Mul(hn::Sqrt(dot(a, a)), hn::Set(RayTag(), 1 + 0x1p-20f));
-}
+HWY_INLINE RayVec length(const LaneVec3& a) { return hn::Mul(hn::Sqrt(dot(a, a)), hn::Set(RayTag(), 1 + 0x1p-20f)); }
 
 /// Sixteen triangles and one light.
 class TriangleLanes {
@@ -104,11 +102,15 @@ class TriangleLanes {
       const auto ab_length = length(ab), bc_length = length(bc), ca_length = length(ca);
       const auto longest = hn::Max(hn::Max(ab_length, ca_length), bc_length);
       const auto no_bc = hn::Eq(bc_length, longest), no_ca = hn::Eq(ca_length, longest);
-      const LaneVec3 first{pick(no_bc, no_ca, bc.x, ca.x, ab.x), pick(no_bc, no_ca, bc.y, ca.y, ab.y), pick(no_bc, no_ca, bc.z, ca.z, ab.z)};
-      const LaneVec3 second{pick(no_bc, no_ca, ca.x, ab.x, bc.x), pick(no_bc, no_ca, ca.y, ab.y, bc.y), pick(no_bc, no_ca, ca.z, ab.z, bc.z)};
+      const LaneVec3 first{pick(no_bc, no_ca, bc.x, ca.x, ab.x), pick(no_bc, no_ca, bc.y, ca.y, ab.y),
+                           pick(no_bc, no_ca, bc.z, ca.z, ab.z)};
+      const LaneVec3 second{pick(no_bc, no_ca, ca.x, ab.x, bc.x), pick(no_bc, no_ca, ca.y, ab.y, bc.y),
+                            pick(no_bc, no_ca, ca.z, ab.z, bc.z)};
       const LaneVec3 normal = cross(first, second);
-      const auto det = dot(normal, {pick(is_b, is_c, a.x, b.x, c.x), pick(is_b, is_c, a.y, b.y, c.y), pick(is_b, is_c, a.z, b.z, c.z)});
-      const auto product = hn::MulAdd(pick(no_bc, no_ca, bc_length, ca_length, ab_length), pick(no_bc, no_ca, ca_length, ab_length, bc_length), set(0x1p-100f));
+      const auto det = dot(
+          normal, {pick(is_b, is_c, a.x, b.x, c.x), pick(is_b, is_c, a.y, b.y, c.y), pick(is_b, is_c, a.z, b.z, c.z)});
+      const auto product = hn::MulAdd(pick(no_bc, no_ca, bc_length, ca_length, ab_length),
+                                      pick(no_bc, no_ca, ca_length, ab_length, bc_length), set(0x1p-100f));
       const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(4.5f * errors_.most)));
       const auto known = hn::Gt(hn::Abs(det), det_error);
       edge_on |= ~ray_bits(known) << i;

@@ -93,21 +93,21 @@ struct LightViewScratch {
     std::uint64_t nodes = 0, leaves = 0;
   };
 
-  std::vector<float> u, v, w;       ///< of rays, in the order of groups once there are groups
-  std::vector<std::int32_t> name;   ///< their places in the caller's order
+  std::vector<float> u, v, w;      ///< of rays, in the order of groups once there are groups
+  std::vector<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
-  std::vector<Record> records;            ///< for sorting
-  std::vector<std::uint32_t> counts;      ///< for counting sorts
-  std::vector<float> above[3];            ///< for cutting groups
+  std::vector<Record> records;        ///< for sorting
+  std::vector<std::uint32_t> counts;  ///< for counting sorts
+  std::vector<float> above[3];        ///< for cutting groups
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
-  std::vector<std::uint64_t> lists;       ///< of the walk: rows of groups and lanes
+  std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
   std::vector<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
-  std::vector<SharedWork> shared;         ///< by group; only for queries that count
-  std::vector<std::uint32_t> odd;         ///< rays that do not end at the light, or are nothing for floats
+  std::vector<SharedWork> shared;  ///< by group; only for queries that count
+  std::vector<std::uint32_t> odd;  ///< rays that do not end at the light, or are nothing for floats
 
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
@@ -129,8 +129,8 @@ struct LightViewScratch {
   }
 };
 
-/// The wide tree, for rays that a view of the light is not for; the hierarchy that the view walks; and memory that calls
-/// borrow. Any threads.
+/// The wide tree, for rays that a view of the light is not for; the hierarchy that the view walks; and memory that
+/// calls borrow. Any threads.
 class LightViewTable : public WideTree {
  public:
   /// Throws std::bad_alloc, or what the executor throws.

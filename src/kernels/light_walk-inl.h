@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One walk of the hierarchy for all groups of rays that a light has, as an irregular z-buffer draws all triangles at
-// once (Johnson et al. 2005; Aila & Laine 2004): boxes are tested against groups side by side, and each row of triangles
-// is prepared for the light once, for the groups that it may block.
+// once (Johnson et al. 2005; Aila & Laine 2004): boxes are tested against groups side by side, and each row of
+// triangles is prepared for the light once, for the groups that it may block.
 
 #if defined(UMBRIX_KERNELS_LIGHT_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_WALK_INL_H_
@@ -42,7 +42,8 @@ class GroupTest {
     const auto u = hn::Set(f, group_.u), v = hn::Set(f, group_.v);
     const auto half_u = hn::Set(f, group_.half_u), half_v = hn::Set(f, group_.half_v);
     const auto nearest = hn::Set(f, group_.nearest);
-    const auto slope_u = hn::Set(f, group_.slope_u), slope_v = hn::Set(f, group_.slope_v), base = hn::Set(f, group_.base);
+    const auto slope_u = hn::Set(f, group_.slope_u), slope_v = hn::Set(f, group_.slope_v),
+               base = hn::Set(f, group_.base);
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
     for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
       const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
@@ -50,14 +51,16 @@ class GroupTest {
       const std::uint32_t known = ~(edge_on >> i);
       // The plane first: most of what is near a group is the surface that its rays start from.
       const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
-      const auto plane_error = hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
+      const auto plane_error =
+          hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
       const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
       const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
       const auto slack = hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error));
       const std::uint32_t open = some & ~(ray_bits(hn::Lt(hn::Add(before, slack), hn::Zero(f))) & known);
       if (open == 0) continue;
 
-      const auto error = hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
+      const auto error =
+          hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
       auto least_low = least_high;
       for (const auto& edge : t.edge) {
@@ -159,7 +162,9 @@ class LightWalk {
   /// False if nothing of the box is on the face's side.
   bool project(const BvhNode& node, std::uint32_t child, const Face& face, ViewBox& out) const {
     const auto low = [&](std::uint32_t axis) { return node.lower[axis][child] - light_.high[axis] - light_.low[axis]; };
-    const auto high = [&](std::uint32_t axis) { return node.upper[axis][child] - light_.high[axis] - light_.low[axis]; };
+    const auto high = [&](std::uint32_t axis) {
+      return node.upper[axis][child] - light_.high[axis] - light_.low[axis];
+    };
     const float off = errors_.most;
     const float near_m = face.sign > 0 ? low(face.axis) : -high(face.axis);
     const float far_m = (face.sign > 0 ? high(face.axis) : -low(face.axis)) + 4 * off;
@@ -171,14 +176,16 @@ class LightWalk {
       const auto most = [&](float x) { return x * (x > 0 ? near_w : far_w) + margin; };
       out = {least(low(face.u_axis())), most(high(face.u_axis())), least(low(face.v_axis())), most(high(face.v_axis())),
              near_w * (1 + 0x1p-18f)};
-      return out.low_u <= 1 + 0x1p-18f && out.high_u >= -1 - 0x1p-18f && out.low_v <= 1 + 0x1p-18f && out.high_v >= -1 - 0x1p-18f;
+      return out.low_u <= 1 + 0x1p-18f && out.high_u >= -1 - 0x1p-18f && out.low_v <= 1 + 0x1p-18f &&
+             out.high_v >= -1 - 0x1p-18f;
     }
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     // Up to the face's plane the box may cover one side of it, or all.
     const float far_w = 1 / far_m;
     const auto least = [&](float x) { return x > 0 ? x * far_w * (1 - 0x1p-18f) - 0x1p-18f : -kInfinity; };
     const auto most = [&](float x) { return x < 0 ? x * far_w * (1 - 0x1p-18f) + 0x1p-18f : kInfinity; };
-    out = {least(low(face.u_axis()) - 4 * off), most(high(face.u_axis()) + 4 * off), least(low(face.v_axis()) - 4 * off), most(high(face.v_axis()) + 4 * off), kInfinity};
+    out = {least(low(face.u_axis()) - 4 * off), most(high(face.u_axis()) + 4 * off),
+           least(low(face.v_axis()) - 4 * off), most(high(face.v_axis()) + 4 * off), kInfinity};
     return true;
   }
 
@@ -221,7 +228,8 @@ class LightWalk {
       }
     }
     for (std::uint32_t child = 0; child < kBvhWidth; ++child)
-      if (ends[child] != top + child * count && (node.child[child] & BvhNode::kLeaf) != 0) prefetch(bvh_.rows(node.child[child] & ~BvhNode::kLeaf));
+      if (ends[child] != top + child * count && (node.child[child] & BvhNode::kLeaf) != 0)
+        prefetch(bvh_.rows(node.child[child] & ~BvhNode::kLeaf));
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
       const std::size_t list = top + child * count;
       if (ends[child] == list) continue;
@@ -235,7 +243,8 @@ class LightWalk {
   }
 
   static void prefetch(const TriangleRows& rows) {
-    for (std::size_t line = 0; line < sizeof rows; line += 64) hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
+    for (std::size_t line = 0; line < sizeof rows; line += 64)
+      hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
@@ -256,12 +265,14 @@ class LightWalk {
         const std::uint32_t near = all & meet_triangles(bounds, box, g[ViewRows::depth][lane]);
         if (near == 0) continue;
         if (!is_prepared) {
-          if (scratch_.triangles.size() <= scratch_.triangle_count) scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
+          if (scratch_.triangles.size() <= scratch_.triangle_count)
+            scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
           edge_on = lanes.prepare(scratch_.triangles[scratch_.triangle_count]);
           is_prepared = true;
         }
         const std::uint32_t group = row * kRowLanes + lane;
-        const GroupTest::Result result = GroupTest(here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
+        const GroupTest::Result result =
+            GroupTest(here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
         if (result.met == 0) continue;
         if (result.blocks != 0 && may_cover_) {
           here.groups.live[row] &= ~(1u << lane);

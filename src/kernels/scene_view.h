@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "core/triangle_test.h"
 #include "index/side_table.h"
@@ -38,6 +39,8 @@ struct SceneView {
 struct SceneAccess {
   /// Null before commit. As it stands until the scene is gone.
   static const SceneView* view(const Scene& scene) noexcept;
+  /// What the default kernel has of a committed scene; null if there was no memory for it.
+  static std::shared_ptr<const SideTable> default_side(const Scene& scene) noexcept;
 };
 
 /// For kernels that answer each ray by itself.

@@ -33,8 +33,9 @@ struct Input {
   }
 };
 
-constexpr FrameMethod kMethods[] = {FrameMethod::best,   FrameMethod::paper, FrameMethod::indexed,
-                                    FrameMethod::linked, FrameMethod::beam,  FrameMethod::standard};
+constexpr FrameMethod kMethods[] = {FrameMethod::best,    FrameMethod::cached, FrameMethod::paper,
+                                    FrameMethod::indexed, FrameMethod::linked, FrameMethod::beam,
+                                    FrameMethod::standard};
 
 std::vector<float> soup(std::size_t triangles, float size, std::mt19937& random) {
   std::uniform_real_distribution<float> u(-1, 1);

@@ -101,7 +101,7 @@ TEST(FrameAnswers, TilesMayHaveAnySize) {
   ASSERT_TRUE(judge::build(data.triangles, scene).ok());
   const std::vector<Ray> rays = mixed_rays(data.rays, 23);
   const std::vector<std::uint8_t> truth = brute(scene, rays);
-  for (const FrameMethod method : {FrameMethod::best, FrameMethod::paper, FrameMethod::beam}) {
+  for (const FrameMethod method : {FrameMethod::best, FrameMethod::cached, FrameMethod::paper, FrameMethod::beam}) {
     FrameOptions options;
     options.method = method;
     FrameTracer tracer;
@@ -129,7 +129,7 @@ TEST(FrameAnswers, RaysMayStandApart) {
   };
   std::vector<Padded> padded;
   for (const Ray& ray : rays) padded.push_back({ray, {NAN, NAN, NAN}});
-  for (const FrameMethod method : {FrameMethod::best, FrameMethod::paper}) {
+  for (const FrameMethod method : {FrameMethod::best, FrameMethod::cached, FrameMethod::paper}) {
     FrameOptions options;
     options.method = method;
     FrameTracer tracer;

@@ -77,8 +77,10 @@ TEST(FrameContract, BlockerThatIsSkippedIsNotThere) {
   Handover skipping;
   skipping.skip = first.data();
   const std::vector<std::uint8_t> truth = brute(hall.scene, rays, skipping);
+  FrameOptions options;
+  options.method = FrameMethod::cached;
   FrameTracer tracer;
-  ASSERT_TRUE(tracer.start(hall.scene).ok());
+  ASSERT_TRUE(tracer.start(hall.scene, options).ok());
   // The first two frames make sure that each ray's blocker is remembered where it starts.
   for (std::int64_t frame = 0; frame < 4; ++frame) {
     ASSERT_TRUE(tracer.begin_frame(numbered(frame)).ok());

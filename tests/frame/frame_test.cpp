@@ -21,7 +21,8 @@ std::vector<FrameOptions> all_options() {
   constexpr IndexMode kIndices[] = {IndexMode::learned, IndexMode::paper};
   for (const PredictorKey key : {PredictorKey::object, PredictorKey::screen}) {
     for (const PredictorRule rule : {PredictorRule::counter, PredictorRule::majority, PredictorRule::sample}) {
-      add(FrameMethod::best, key, rule, LinkMode::lazy, IndexMode::learned);
+      for (const FrameMethod method : {FrameMethod::best, FrameMethod::cached})
+        add(method, key, rule, LinkMode::lazy, IndexMode::learned);
       for (const LinkMode links : kLinks)
         for (const IndexMode index : kIndices) add(FrameMethod::paper, key, rule, links, index);
     }
@@ -45,7 +46,7 @@ FrameOptions paper_options() {
 }
 
 std::string describe(const FrameOptions& options) {
-  constexpr const char* kMethods[] = {"best", "paper", "indexed", "linked", "beam", "standard"};
+  constexpr const char* kMethods[] = {"best", "cached", "paper", "indexed", "linked", "beam", "standard"};
   constexpr const char* kKeys[] = {"object", "screen"};
   constexpr const char* kRules[] = {"counter", "majority", "sample"};
   constexpr const char* kLinks[] = {"lazy", "reached", "full"};

@@ -170,6 +170,7 @@ TEST(FrameStatistics, StaticSceneIsPredictedAsWellAsItsRegionsAllow) {
   for (const std::uint32_t region : {2u, 4u, 8u, 16u}) {
     for (const PredictorRule rule : {PredictorRule::majority, PredictorRule::counter, PredictorRule::sample}) {
       FrameOptions options;
+      options.method = FrameMethod::cached;
       options.key = PredictorKey::screen;
       options.rule = rule;
       options.region = region;
@@ -198,6 +199,7 @@ TEST(FrameStatistics, PlacesHoldWhileTheCameraMoves) {
   for (const float shift : {0.0f, 0.7f, 1.4f}) frames.push_back(hall.rays(shift));
   for (const PredictorRule rule : {PredictorRule::majority, PredictorRule::counter}) {
     FrameOptions options;
+    options.method = FrameMethod::cached;
     options.rule = rule;
     options.cell = 1.0f / 16;
     options.slots = 1u << 20;
@@ -216,6 +218,7 @@ TEST(FrameStatistics, RememberedBlockersAnswer) {
   const Hall hall;
   const std::vector<Ray> rays = hall.rays();
   FrameOptions options;
+  options.method = FrameMethod::cached;
   options.count_work = true;
   FrameTracer tracer;
   ASSERT_TRUE(tracer.start(hall.scene, options).ok());
@@ -229,8 +232,10 @@ TEST(FrameStatistics, RememberedBlockersAnswer) {
 
 TEST(FrameStatistics, NothingIsCountedUnlessAsked) {
   const Hall hall;
+  FrameOptions options;
+  options.method = FrameMethod::cached;
   FrameTracer tracer;
-  ASSERT_TRUE(tracer.start(hall.scene).ok());
+  ASSERT_TRUE(tracer.start(hall.scene, options).ok());
   const FrameStats stats = frame_after(tracer, hall, {hall.rays(), hall.rays()});
   expect_equal(stats.counts.occluded, RayCounts());
   expect_equal(stats.counts.unoccluded, RayCounts());

@@ -92,7 +92,7 @@ TEST(FrameThreads, StatsDoNotDependOnThem) {
     options.cell = 1.0f / 16;
     const std::string one = run(scene, data.rays, truth, options, 1, 1);
     std::uint32_t seed = 2;
-    const bool is_usual = options.method == FrameMethod::best || options.rule == PredictorRule::sample;
+    const bool is_usual = options.method == FrameMethod::cached || options.rule == PredictorRule::sample;
     for (unsigned threads = 1; threads <= (is_usual ? 7u : 3u); ++threads)
       ASSERT_EQ(run(scene, data.rays, truth, options, threads, seed++), one) << threads << " threads";
     ASSERT_EQ(run(scene, data.rays, truth, options, 4, seed), one) << "once more";

@@ -95,8 +95,8 @@ TEST_F(Invariance, FrameTracers) {
   RenderOptions once = options();
   once.samples = 1;
   const io::Image usual = image(once);
-  for (const FrameMethod method :
-       {FrameMethod::best, FrameMethod::paper, FrameMethod::indexed, FrameMethod::linked, FrameMethod::beam}) {
+  for (const FrameMethod method : {FrameMethod::best, FrameMethod::cached, FrameMethod::paper, FrameMethod::indexed,
+                                   FrameMethod::linked, FrameMethod::beam}) {
     SCOPED_TRACE(static_cast<int>(method));
     FrameOptions frame_options;
     frame_options.method = method;
