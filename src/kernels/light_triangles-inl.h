@@ -4,10 +4,11 @@
 //   the line from the start to the light passes A and B on the side of (A x (B - A)) . r,
 //   and the triangle's plane lies before the start if N . r / (N . A) > w.
 // Offsets and r are rounded by up to 2 and 6 units e = 2^-24, |r| <= sqrt(3), and the permanent of three vectors is at
-// most 2/sqrt(3) of the product of their lengths. With starts off by s m and ends by l m,
-//   an edge is wrong by less than |E| (|A| (32 e + s + 1.1 l) + 2 l m),
-//   N . r by (24 e + 1.1 s) |E||F|, (N . A) w by 14 e |A| |E||F| w, for edges E and F and the nearest vertex A,
-// and if |N . A| > 4 |E||F| (11 e |A| + 1.1 l m), the light is on the side that its sign tells.
+// most 2/sqrt(3) of the product of their lengths. With each coordinate of a start off by up to s m and of its end by up
+// to l m, which moves an edge's triple product by the light's offset times (B - A) x (S - A),
+//   an edge is wrong by less than |E| (|A| (32 e + 1.8 (s + l)) + 3.1 l m),
+//   N . r by (24 e + 1.8 s) |E||F|, (N . A) w by 14 e |A| |E||F| w, for edges E and F and the nearest vertex A,
+// and if |N . A| > 4 |E||F| (11 e |A| + 1.8 l m), the light is on the side that its sign tells.
 
 #if defined(UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_TRIANGLES_INL_H_
@@ -67,9 +68,9 @@ class TriangleLanes {
         low_v = hn::Min(low_v, v);
         high_v = hn::Max(high_v, v);
       }
-      const auto bounded = hn::Gt(least, hn::Mul(off, hn::Set(f, 16.0f)));
+      const auto bounded = hn::Gt(least, hn::Mul(off, hn::Set(f, 4.0f)));
       const auto w = hn::Div(hn::Set(f, 1 + 0x1p-18f), least);
-      const auto margin = hn::MulAdd(hn::Mul(off, hn::Set(f, 4.0f)), w, hn::Set(f, 0x1p-19f));
+      const auto margin = hn::MulAdd(hn::Mul(off, hn::Set(f, 2.2f)), w, hn::Set(f, 0x1p-19f));
       const auto put = [&](ViewRows::Row row, RayVec x, RayVec otherwise) {
         hn::Store(hn::IfThenElse(bounded, x, otherwise), f, out.rows[row] + i);
       };
@@ -111,7 +112,7 @@ class TriangleLanes {
           normal, {pick(is_b, is_c, a.x, b.x, c.x), pick(is_b, is_c, a.y, b.y, c.y), pick(is_b, is_c, a.z, b.z, c.z)});
       const auto product = hn::MulAdd(pick(no_bc, no_ca, bc_length, ca_length, ab_length),
                                       pick(no_bc, no_ca, ca_length, ab_length, bc_length), set(0x1p-100f));
-      const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(4.5f * errors_.most)));
+      const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(7.2f * errors_.most)));
       const auto known = hn::Gt(hn::Abs(det), det_error);
       edge_on |= ~ray_bits(known) << i;
       const auto sign = hn::IfThenElseZero(known, hn::And(det, set(-0.0f)));
@@ -129,11 +130,11 @@ class TriangleLanes {
       plane(1, normal.y);
       plane(2, normal.z);
       const auto tiny = set(0x1p-100f);
-      hn::Store(hn::MulAdd(hn::Mul(longest, farthest), set(32 * e + errors_.start + 1.1f * errors_.end), tiny), f,
+      hn::Store(hn::MulAdd(hn::Mul(longest, farthest), set(32 * e + 1.8f * (errors_.start + errors_.end)), tiny), f,
                 out.edge_error[0] + i);
-      hn::Store(hn::Mul(longest, set(2 * errors_.end)), f, out.edge_error[1] + i);
+      hn::Store(hn::Mul(longest, set(3.1f * errors_.end)), f, out.edge_error[1] + i);
       const auto ratio = hn::Mul(product, hn::Abs(inverse));
-      hn::Store(hn::Mul(ratio, set(24 * e + 1.1f * errors_.start)), f, out.plane_error[0] + i);
+      hn::Store(hn::Mul(ratio, set(24 * e + 1.8f * errors_.start)), f, out.plane_error[0] + i);
       hn::Store(hn::MulAdd(ratio, hn::Mul(set(14 * e), nearest), set(8 * e)), f, out.plane_error[1] + i);
     }
     std::memcpy(out.id, rows_.id, sizeof out.id);

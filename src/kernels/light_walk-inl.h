@@ -138,7 +138,7 @@ class LightWalk {
       g.half_v += 0x1p-20f + 2 * errors_.start;
       const float off = 0x1p-21f + errors_.start;
       g.base -= off * (g.nearest + std::abs(g.slope_u) + std::abs(g.slope_v));
-      g.farthest *= 1 - (0x1p-18f + 2 * (errors_.start + errors_.end));
+      g.farthest *= 1 - (0x1p-18f + 2 * errors_.start);
       g.nearest *= 1 + off;
       g.reach = 1 / g.farthest;
     }
@@ -159,7 +159,8 @@ class LightWalk {
     }
   }
 
-  /// False if nothing of the box is on the face's side.
+  /// False if nothing of the box is on the face's side. A point of a segment, at depth m, is seen within 2 off / m of
+  /// its start, where ends are off by up to `off` on each axis; and no deeper than the start.
   bool project(const BvhNode& node, std::uint32_t child, const Face& face, ViewBox& out) const {
     const auto low = [&](std::uint32_t axis) { return node.lower[axis][child] - light_.high[axis] - light_.low[axis]; };
     const auto high = [&](std::uint32_t axis) {
@@ -169,9 +170,9 @@ class LightWalk {
     const float near_m = face.sign > 0 ? low(face.axis) : -high(face.axis);
     const float far_m = (face.sign > 0 ? high(face.axis) : -low(face.axis)) + 4 * off;
     if (!(far_m > 0)) return false;
-    if (near_m > 16 * off) {
+    if (near_m > 4 * off) {
       const float near_w = 1 / near_m, far_w = 1 / far_m;
-      const float margin = 0x1p-18f + 4 * off * near_w;
+      const float margin = 0x1p-18f + 2.2f * off * near_w;
       const auto least = [&](float x) { return x * (x > 0 ? far_w : near_w) - margin; };
       const auto most = [&](float x) { return x * (x > 0 ? near_w : far_w) + margin; };
       out = {least(low(face.u_axis())), most(high(face.u_axis())), least(low(face.v_axis())), most(high(face.v_axis())),

@@ -15,6 +15,8 @@
 #include "command.h"
 #include "embree/embree_scene.h"
 #include "report.h"
+#include "throughput/light_order.h"
+#include "throughput/phases.h"
 #include "umbrix/umbrix.h"
 #include "workload/disputes.h"
 #include "workload/geometry.h"
@@ -28,16 +30,21 @@ struct Settings {
   std::vector<std::string> kernels;
   std::string setup;
   std::string json;
+  std::vector<std::string> phases{"first"};
   int size = 1024;
   int threads = 1;
   int rounds = 7;
   std::size_t light = 0;
 };
 
+using Ask = std::function<void(RaySpan, std::uint8_t*)>;
+
 struct Peer {
   std::string name;
-  std::function<void(RaySpan, std::uint8_t*)> run;
+  Ask run;
   bool is_embree = false;
+  bool is_sorted = false;             ///< its host sorts the rays for it
+  std::function<void()> before = {};  ///< not timed, before each run
   std::vector<std::uint8_t> answers = {};
   std::vector<double> seconds = {};
   std::uint64_t wrong = 0;
@@ -68,27 +75,52 @@ Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles
   return {};
 }
 
-void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, std::vector<Peer>& peers) {
+// A frame tracer that has seen the frame before.
+void add_frames(FrameTracer& tracer, const Phase& phase, std::vector<Peer>& peers) {
+  const auto trace = [&tracer](RaySpan rays, std::uint8_t* out) {
+    ShadowTile tile;
+    tile.rays = rays;
+    tracer.occluded(tile, out);
+  };
+  Peer peer{"umbrix:frames", trace};
+  peer.before = [&tracer, &phase, trace] {
+    if (!tracer.begin_frame()) return;
+    std::vector<std::uint8_t> answers(phase.before.size());
+    trace({phase.before.data(), phase.before.size()}, answers.data());
+    tracer.end_frame();
+  };
+  peers.push_back(std::move(peer));
+}
+
+void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, bool is_shuffled,
+                std::vector<Peer>& peers) {
   for (const embree::Mode mode : embree::modes()) {
-    peers.push_back({fmt::format("embree:{}:{}", embree::mode_name(mode), suffix),
-                     [&scene, mode](RaySpan rays, std::uint8_t* out) { scene.occluded(rays, mode, out); }, true});
+    const Ask ask = [&scene, mode](RaySpan rays, std::uint8_t* out) { scene.occluded(rays, mode, out); };
+    const std::string name = fmt::format("embree:{}:{}", embree::mode_name(mode), suffix);
+    peers.push_back({name, ask, true});
+    if (!is_shuffled) continue;
+    const auto order = std::make_shared<LightOrder>();
+    Peer sorted{name + ":sorted", [ask, order](RaySpan rays, std::uint8_t* out) { order->ask(rays, out, ask); }, true};
+    sorted.is_sorted = true;
+    peers.push_back(std::move(sorted));
   }
 }
 
 // One run over all rays: processor time of this thread, or with several threads the wall time.
 double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
+  if (peer.before) peer.before();
   if (threads == 1) {
     const double start = thread_seconds();
     peer.run({rays.data(), rays.size()}, out);
     return thread_seconds() - start;
   }
-  constexpr std::size_t kBlock = 4096;
+  const std::size_t block_size = std::max<std::size_t>(4096, rays.size() / static_cast<std::size_t>(4 * threads));
   tbb::task_arena arena(threads);
   const double start = wall_seconds();
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (rays.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-      const std::size_t begin = block * kBlock;
-      peer.run({rays.data() + begin, std::min(kBlock, rays.size() - begin)}, out + begin);
+    tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
+      const std::size_t begin = block * block_size;
+      peer.run({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
     });
   });
   return wall_seconds() - start;
@@ -107,38 +139,81 @@ double rays_per_microsecond(const Peer& peer, std::size_t rays) {
   return seconds > 0 ? 1e-6 * static_cast<double>(rays) / seconds : 0;
 }
 
-// Prints the scene's table and adds it to the report.
-void report(const workload::Geometry& geometry, const std::vector<Ray>& rays, const std::vector<Peer>& peers,
-            nlohmann::json& rows) {
-  double best_embree = 0, reference = 0;
+// Prints the table of a scene and a phase, and adds it to the report.
+void report(const workload::Geometry& geometry, const Phase& phase, const Settings& settings,
+            const std::vector<Peer>& peers, nlohmann::json& rows) {
+  double best_embree = 0, best_sorted = 0, reference = 0;
   for (const Peer& peer : peers) {
-    const double speed = rays_per_microsecond(peer, rays.size());
-    if (peer.is_embree) best_embree = std::max(best_embree, speed);
+    const double speed = rays_per_microsecond(peer, phase.rays.size());
+    double& best = peer.is_sorted ? best_sorted : best_embree;
+    if (peer.is_embree) best = std::max(best, speed);
     if (peer.name == kReferenceEmbree) reference = speed;
   }
   const auto occluded = std::count(peers[0].answers.begin(), peers[0].answers.end(), std::uint8_t{1});
-  fmt::print("{}: {} triangles, {} rays, {:.1f} % occluded\n", geometry.name, geometry.triangle_count(), rays.size(),
-             rays.empty() ? 0.0 : 100.0 * static_cast<double>(occluded) / static_cast<double>(rays.size()));
-  fmt::print("  {:<32} {:>9} {:>8} {:>12} {:>12} {:>7}\n", "peer", "Mrays/s", "spread", "/ best E", "/ E single r",
+  const auto share = phase.rays.empty() ? 0.0 : static_cast<double>(occluded) / static_cast<double>(phase.rays.size());
+  fmt::print("{}, {}: {} triangles, {} rays, {:.1f} % occluded\n", geometry.name, phase.name, geometry.triangle_count(),
+             phase.rays.size(), 100 * share);
+  fmt::print("  {:<40} {:>9} {:>8} {:>10} {:>12} {:>7}\n", "peer", "Mrays/s", "spread", "/ best E", "/ E single r",
              "wrong");
+  const auto ratio = [](double speed, double other) { return other > 0 ? speed / other : 0; };
   for (const Peer& peer : peers) {
-    const double speed = rays_per_microsecond(peer, rays.size());
+    const double speed = rays_per_microsecond(peer, phase.rays.size());
     const auto [fastest, slowest] = std::minmax_element(peer.seconds.begin(), peer.seconds.end());
-    const double middle = median(peer.seconds);
-    const double spread = middle > 0 ? (*slowest - *fastest) / middle : 0;
-    const double to_best = best_embree > 0 ? speed / best_embree : 0;
-    const double to_reference = reference > 0 ? speed / reference : 0;
-    fmt::print("  {:<32} {:>9.2f} {:>7.1f}% {:>12.3f} {:>12.3f} {:>7}\n", peer.name, speed, 100 * spread, to_best,
-               to_reference, peer.wrong);
+    const double spread = ratio(*slowest - *fastest, median(peer.seconds));
+    fmt::print("  {:<40} {:>9.2f} {:>7.1f}% {:>10.3f} {:>12.3f} {:>7}\n", peer.name, speed, 100 * spread,
+               ratio(speed, best_embree), ratio(speed, reference), peer.wrong);
     rows.push_back({{"scene", geometry.name},
+                    {"phase", phase.name},
+                    {"threads", settings.threads},
                     {"peer", peer.name},
-                    {"rays", rays.size()},
+                    {"rays", phase.rays.size()},
                     {"mrays_per_s", speed},
                     {"spread", spread},
-                    {"ratio_to_best_embree", to_best},
-                    {"ratio_to_embree_single_robust", to_reference},
+                    {"ratio_to_best_embree", ratio(speed, best_embree)},
+                    {"ratio_to_best_sorted_embree", ratio(speed, best_sorted)},
+                    {"ratio_to_embree_single_robust", ratio(speed, reference)},
                     {"wrong", peer.wrong}});
   }
+}
+
+struct EmbreeScenes {
+  embree::EmbreeScene robust, fast, medium;
+
+  Status build(const std::vector<MeshView>& views) {
+    if (Status status = robust.build(views, {embree::Quality::high, true, 0}); !status) return status;
+    if (Status status = fast.build(views, {embree::Quality::high, false, 0}); !status) return status;
+    return medium.build(views, {embree::Quality::medium, false, 0});
+  }
+  void add(bool is_shuffled, std::vector<Peer>& peers) const {
+    add_embree(robust, "robust", is_shuffled, peers);
+    add_embree(fast, "fast", is_shuffled, peers);
+    add_embree(medium, "fast:medium", is_shuffled, peers);
+  }
+};
+
+Status measure_phase(const Settings& settings, const workload::Geometry& geometry, const Phase& phase, Scene& scene,
+                     const EmbreeScenes& embree, nlohmann::json& rows, bool& any_wrong) {
+  std::vector<Peer> peers;
+  const std::vector<Ray>& rays = phase.rays;
+  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), rays, peers); !status) return status;
+  FrameTracer tracer;
+  if (Status status = tracer.start(scene); !status) return status;
+  if (!phase.before.empty()) add_frames(tracer, phase, peers);
+  embree.add(phase.is_shuffled, peers);
+  for (Peer& peer : peers) {
+    peer.answers.resize(rays.size());
+    time_once(peer, rays, peer.answers.data(), settings.threads);  // warms up, and is not counted
+  }
+  for (int round = 0; round < settings.rounds; ++round) {
+    for (Peer& peer : peers) {
+      peer.seconds.push_back(time_once(peer, rays, peer.answers.data(), settings.threads));
+    }
+  }
+  judge(geometry, rays, peers);
+  report(geometry, phase, settings, peers, rows);
+  any_wrong = any_wrong || std::any_of(peers.begin(), peers.end(),
+                                       [](const Peer& peer) { return !peer.is_embree && peer.wrong > 0; });
+  return {};
 }
 
 Status measure(const Settings& settings, const std::string& path, nlohmann::json& rows, bool& any_wrong) {
@@ -153,30 +228,17 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
 
   const std::vector<MeshView> views = geometry.views();
   Scene scene;
-  embree::EmbreeScene robust, fast;
+  EmbreeScenes embree;
   if (Status status = workload::build_scene(views, {}, scene); !status) return status;
-  if (Status status = robust.build(views, {embree::Quality::high, true, 0}); !status) return status;
-  if (Status status = fast.build(views, {embree::Quality::high, false, 0}); !status) return status;
-  const std::vector<Ray> rays =
-      workload::shadow_rays(scene, geometry, viewpoint.camera, viewpoint.lights[settings.light], settings.size);
-
-  std::vector<Peer> peers;
-  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), rays, peers); !status) return status;
-  if (!getenv("NOE")) add_embree(robust, "robust", peers);
-  if (!getenv("NOE")) add_embree(fast, "fast", peers);
-  for (Peer& peer : peers) {
-    peer.answers.resize(rays.size());
-    time_once(peer, rays, peer.answers.data(), settings.threads);  // warms up, and is not counted
+  if (Status status = embree.build(views); !status) return status;
+  for (const std::string& name : settings.phases) {
+    Phase phase;
+    if (Status status = make_phase(name, scene, geometry, viewpoint, settings.light, settings.size, phase); !status)
+      return status;
+    if (phase.rays.empty()) continue;
+    if (Status status = measure_phase(settings, geometry, phase, scene, embree, rows, any_wrong); !status)
+      return status;
   }
-  for (int round = 0; round < settings.rounds; ++round) {
-    for (Peer& peer : peers) {
-      peer.seconds.push_back(time_once(peer, rays, peer.answers.data(), settings.threads));
-    }
-  }
-  judge(geometry, rays, peers);
-  report(geometry, rays, peers, rows);
-  any_wrong = any_wrong || std::any_of(peers.begin(), peers.end(),
-                                       [](const Peer& peer) { return !peer.is_embree && peer.wrong > 0; });
   return {};
 }
 
@@ -209,6 +271,8 @@ std::function<ExitCode()> throughput_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--rounds", settings->rounds, "Measured runs of each peer")->check(CLI::Range(1, 1000));
   app.add_option("--light", settings->light, "Which light, counted from 0");
+  app.add_option("--phase", settings->phases, "first, next:D (a camera moved by D of the diagonal), shuffled, area")
+      ->delimiter(',');
   app.add_option("--kernel", settings->kernels, "Only these kernels")->delimiter(',');
   app.add_option("--json", settings->json, "Write the rows to this file");
   return [settings] { return run(*settings); };
