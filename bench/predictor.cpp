@@ -61,6 +61,7 @@ struct Setup {
 std::vector<Setup> make_setups() {
   std::vector<Setup> setups;
   FrameOptions options;
+  options.method = FrameMethod::cached;
   options.slots = kSlots;
   options.key = PredictorKey::screen;
   for (const PredictorRule rule : {PredictorRule::sample, PredictorRule::majority, PredictorRule::counter}) {

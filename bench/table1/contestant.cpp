@@ -89,6 +89,12 @@ class FrameContestant : public Contestant {
   FrameOptions options_;
 };
 
+FrameOptions cached_options() {
+  FrameOptions options;
+  options.method = FrameMethod::cached;
+  return options;
+}
+
 FrameOptions paper_options() {
   FrameOptions options;
   options.method = FrameMethod::paper;
@@ -137,6 +143,7 @@ Status make_contestants(const std::vector<std::string>& names, std::vector<std::
     if (name != "auto" && name != "brute") known.push_back(kernel_contestant(name, KernelId{static_cast<int>(i)}));
   }
   known.push_back(frame_contestant("paper", paper_options()));
+  known.push_back(frame_contestant("cached", cached_options()));
   known.push_back(frame_contestant("auto", FrameOptions()));
   std::string list;
   for (const auto& contestant : known) list += (list.empty() ? "" : ", ") + contestant->name();

@@ -85,7 +85,7 @@ struct Pixel {
 /// How a ray was answered.
 enum class RayRoute : std::uint8_t {
   cached,   ///< by a triangle that blocked rays there in the last frame, or rays just before
-  beam,     ///< with its group
+  beam,     ///< with its group, or as the light sees it
   indexed,  ///< by the indexed walk
   linked,   ///< from leaf to leaf
   other,    ///< by the stack walk, by an exact slow path, or not at all (see Ray)
