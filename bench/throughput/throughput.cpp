@@ -35,6 +35,7 @@ struct Settings {
   int threads = 1;
   int rounds = 7;
   std::size_t light = 0;
+  bool has_embree = true;
 };
 
 using Ask = std::function<void(RaySpan, std::uint8_t*)>;
@@ -199,7 +200,7 @@ Status measure_phase(const Settings& settings, const workload::Geometry& geometr
   FrameTracer tracer;
   if (Status status = tracer.start(scene); !status) return status;
   if (!phase.before.empty()) add_frames(tracer, phase, peers);
-  embree.add(phase.is_shuffled, peers);
+  if (settings.has_embree) embree.add(phase.is_shuffled, peers);
   for (Peer& peer : peers) {
     peer.answers.resize(rays.size());
     time_once(peer, rays, peer.answers.data(), settings.threads);  // warms up, and is not counted
@@ -274,6 +275,8 @@ std::function<ExitCode()> throughput_command(CLI::App& app) {
   app.add_option("--phase", settings->phases, "first, next:D (a camera moved by D of the diagonal), shuffled, area")
       ->delimiter(',');
   app.add_option("--kernel", settings->kernels, "Only these kernels")->delimiter(',');
+  app.add_flag_callback(
+      "--no-embree", [settings] { settings->has_embree = false; }, "Leave Embree out, to profile");
   app.add_option("--json", settings->json, "Write the rows to this file");
   return [settings] { return run(*settings); };
 }

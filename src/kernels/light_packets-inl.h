@@ -13,10 +13,12 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "kernels/group_rays.h"
+#include "kernels/light_triangles-inl.h"
 #include "kernels/light_view.h"
 #include "kernels/ray_lanes-inl.h"
 
@@ -29,6 +31,7 @@ struct Packet {
   RayVec u, v, w;
   RayMask blocked, unsure;
   std::uint32_t first, count;
+  ViewBox box;
 };
 
 /// One triangle, in all lanes.
@@ -75,8 +78,10 @@ template <class Counts>
 class LightPackets {
  public:
   /// `each` takes the work of each ray, if it is counted.
-  LightPackets(const SceneView& scene, const GroupRays& rays, LightViewScratch& scratch, std::vector<Counts>& each)
+  LightPackets(const SceneView& scene, const GroupRays& rays, const ViewErrors& errors, LightViewScratch& scratch,
+               std::vector<Counts>& each)
       : scene_(scene),
+        margin_(0x1p-20f + 2 * errors.start),
         rays_(rays),
         scratch_(scratch),
         each_(each),
@@ -125,26 +130,24 @@ class LightPackets {
       const LightTriangles& triangles = scratch_.triangles[m.triangles];
       if (i + 1 < last) prefetch(scratch_.triangles[scratch_.sorted[i + 1].triangles]);
       if (!plain_ || m.edge_on != 0) {
-        decide(group, m, packets, count);
+        for (std::uint32_t k = 0; k < count; ++k) decide(group, m, packets[k]);
         continue;
       }
-      for (std::uint32_t rest = m.lanes; rest != 0; rest &= rest - 1) {
-        if constexpr (kCounts) count_tests(packets, count);
-        const TriangleTest test(triangles, first_lane(rest), group);
-        for (std::uint32_t k = 0; k < count; ++k) {
-          RayMask hit, open;
-          test(packets[k], hit, open);
-          packets[k].blocked = hn::Or(packets[k].blocked, hit);
-          packets[k].unsure = hn::Or(packets[k].unsure, hn::AndNot(hit, open));
-        }
+      std::uint32_t left = 0;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        if (hn::AllTrue(RayTag(), packets[k].blocked)) continue;
+        ++left;
+        test(triangles, m.lanes & before(triangles.bounds, packets[k].box), group, packets[k]);
       }
-      if (all_blocked(packets, count)) break;
+      if (left == 0) break;
     }
     bool is_open = false;
-    for (std::uint32_t k = 0; k < count; ++k)
-      is_open = is_open || !hn::AllFalse(RayTag(), hn::AndNot(packets[k].blocked, packets[k].unsure));
-    if (HWY_UNLIKELY(is_open))
-      for (std::uint32_t i = first; i < last; ++i) decide(group, scratch_.sorted[i], packets, count);
+    for (std::uint32_t k = 0; k < count; ++k) is_open = is_open || is_unsure(packets[k]);
+    if (HWY_UNLIKELY(is_open)) {
+      for (std::uint32_t k = 0; k < count; ++k)
+        for (std::uint32_t i = first; i < last && is_unsure(packets[k]); ++i)
+          decide(group, scratch_.sorted[i], packets[k]);
+    }
     for (std::uint32_t k = 0; k < count; ++k) {
       for (std::uint32_t rest = ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)
         rays_.out[name(packets[k].first + first_lane(rest))] = 1;
@@ -165,14 +168,31 @@ class LightPackets {
       p.w = hn::LoadU(f, scratch_.w.data() + p.first);
       p.blocked = hn::Not(hn::FirstN(f, p.count));
       p.unsure = hn::MaskFromVec(hn::Zero(f));
+      bound(p);
     }
     return count;
   }
 
-  static bool all_blocked(const Packet* packets, std::uint32_t count) {
-    for (std::uint32_t k = 0; k < count; ++k)
-      if (!hn::AllTrue(RayTag(), packets[k].blocked)) return false;
-    return true;
+  HWY_INLINE void test(const LightTriangles& triangles, std::uint32_t lanes, const RayGroup& group, Packet& p) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      if constexpr (kCounts) count_tests(p);
+      RayMask hit, open;
+      TriangleTest(triangles, first_lane(lanes), group)(p, hit, open);
+      p.blocked = hn::Or(p.blocked, hit);
+      p.unsure = hn::Or(p.unsure, hn::AndNot(hit, open));
+    }
+  }
+
+  void bound(Packet& p) const {
+    const RayTag f;
+    const auto use = hn::FirstN(f, p.count);
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    const auto least = [&](RayVec x) { return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(use, x, infinity))); };
+    const auto most = [&](RayVec x) {
+      return hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(use, x, hn::Neg(infinity))));
+    };
+    p.box = {least(p.u) - margin_, most(p.u) + margin_, least(p.v) - margin_, most(p.v) + margin_,
+             least(p.w) * (1 - 4 * margin_)};
   }
 
   static void prefetch(const LightTriangles& t) {
@@ -188,10 +208,9 @@ class LightPackets {
     }
   }
 
-  void count_tests(const Packet* packets, std::uint32_t count) {
-    for (std::uint32_t k = 0; k < count; ++k)
-      for (std::uint32_t rest = ~ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)
-        each_[name(packets[k].first + first_lane(rest))].primitives(1);
+  void count_tests(const Packet& p) {
+    for (std::uint32_t rest = ~ray_bits(p.blocked) & present(p); rest != 0; rest &= rest - 1)
+      each_[name(p.first + first_lane(rest))].primitives(1);
   }
 
   static std::uint32_t present(const Packet& p) {
@@ -200,29 +219,28 @@ class LightPackets {
   std::size_t name(std::size_t place) const { return static_cast<std::size_t>(scratch_.name[place]); }
 
   /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
-  HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet* packets, std::uint32_t count) {
+  HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet& p) {
     const LightTriangles& triangles = scratch_.triangles[m.triangles];
-    for (std::uint32_t rest = m.lanes | m.edge_on; rest != 0; rest &= rest - 1) {
+    const std::uint32_t lanes = m.lanes | m.edge_on;
+    for (std::uint32_t rest = lanes & before(triangles.bounds, p.box); rest != 0; rest &= rest - 1) {
+      if constexpr (kCounts) {
+        if (!plain_ || m.edge_on != 0) count_tests(p);  // others were counted before
+      }
       const std::uint32_t lane = first_lane(rest);
       const TriangleTest test(triangles, lane, group);
-      if constexpr (kCounts) {
-        if (!plain_ || m.edge_on != 0) count_tests(packets, count);  // others were counted before
-      }
-      const bool is_edge_on = (m.edge_on >> lane & 1) != 0;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        Packet& p = packets[k];
-        RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
-        if (is_edge_on)
-          open = test.edge_on(p);
-        else
-          test(p, hit, open);
-        const std::uint32_t left = ~ray_bits(p.blocked), hits = ray_bits(hit) & left;
-        std::uint32_t blocked = plain_ ? hits : admitted(p, hits, triangles.id[lane]);
-        blocked |= exactly(p, ray_bits(open) & left & ~hits, triangles.id[lane]);
-        p.blocked = hn::Or(p.blocked, lane_mask(blocked));
-      }
+      RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
+      if ((m.edge_on >> lane & 1) != 0)
+        open = test.edge_on(p);
+      else
+        test(p, hit, open);
+      const std::uint32_t left = ~ray_bits(p.blocked), hits = ray_bits(hit) & left;
+      std::uint32_t blocked = plain_ ? hits : admitted(p, hits, triangles.id[lane]);
+      blocked |= exactly(p, ray_bits(open) & left & ~hits, triangles.id[lane]);
+      p.blocked = hn::Or(p.blocked, lane_mask(blocked));
     }
   }
+
+  static bool is_unsure(const Packet& p) { return !hn::AllFalse(RayTag(), hn::AndNot(p.blocked, p.unsure)); }
 
   std::uint32_t exactly(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
     NoCounts none;
@@ -251,6 +269,7 @@ class LightPackets {
   }
 
   const SceneView& scene_;
+  float margin_;  ///< of packets' boxes
   const GroupRays& rays_;
   LightViewScratch& scratch_;
   std::vector<Counts>& each_;

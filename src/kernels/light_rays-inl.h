@@ -150,7 +150,7 @@ class LightRays {
     }
     const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
     const auto depth = hn::Max(ax, hn::Max(ay, az)), w = hn::Div(hn::Set(f, 1.0f), depth);
-    const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-21f), off);  // with the rounding of the end
+    const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-22f), off);  // with the rounding of the end
     // Only where the end is well away from the start, compared with how far it is off, and where denormals, which the
     // host may flush, are too small to matter. NaN is never good.
     const auto between = [&](RayVec x, float low, float high) {

@@ -70,7 +70,7 @@ class LightTrace {
 
     std::vector<Counts> each(kCounts ? rays.rays.count : 0);
     std::memset(rays.out, 0, rays.rays.count);
-    LightPackets<Counts>(scene_, rays, scratch, each).trace();
+    LightPackets<Counts>(scene_, rays, light_rays.errors(), scratch, each).trace();
     trace_odd(rays, scratch, each);
     deliver(rays, each);
     return true;

@@ -55,8 +55,14 @@ struct alignas(64) ViewRows {
   float rows[kRows][kRowLanes];  ///< depth as w: of groups the farthest start, of triangles the nearest point
 };
 
+/// A rectangle of the view and one depth, as w.
+struct ViewBox {
+  float low_u, high_u, low_v, high_v, depth;
+};
+
 /// Triangles prepared for one face. Each value is a linear function of r = (u, v, 1).
 struct alignas(64) LightTriangles {
+  ViewRows bounds;
   float edge[3][3][kRowLanes];      ///< by edge and coefficient: positive inside of the edge
   float plane[3][kRowLanes];        ///< w of the triangle's plane
   float edge_error[2][kRowLanes];   ///< of an edge's value: [0] + [1] / w

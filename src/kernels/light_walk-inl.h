@@ -21,11 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Where a box may block starts, as the light sees it on a face.
-struct ViewBox {
-  float low_u, high_u, low_v, high_v, nearest;
-};
-
 /// A group's rectangle and starts against sixteen triangles.
 class GroupTest {
  public:
@@ -199,7 +194,7 @@ class LightWalk {
                                 hn::Ge(row(ViewRows::high_u), hn::Set(f, box.low_u)));
       const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, box.high_v)),
                                 hn::Ge(row(ViewRows::high_v), hn::Set(f, box.low_v)));
-      const auto before = hn::Le(row(ViewRows::depth), hn::Set(f, box.nearest));
+      const auto before = hn::Le(row(ViewRows::depth), hn::Set(f, box.depth));
       result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
     }
     return result;
@@ -250,8 +245,10 @@ class LightWalk {
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
-    ViewRows bounds;
-    lanes.bound(bounds);
+    if (scratch_.triangles.size() <= scratch_.triangle_count)
+      scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
+    LightTriangles& triangles = scratch_.triangles[scratch_.triangle_count];
+    lanes.bound(triangles.bounds);
     const std::uint32_t all = (1u << rows.count) - 1;
     std::uint32_t edge_on = 0;
     bool is_prepared = false, is_kept = false;
@@ -262,18 +259,15 @@ class LightWalk {
         const std::uint32_t lane = first_lane(rest);
         const auto& g = here.groups.rows[row].rows;
         const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
-                          g[ViewRows::high_v][lane], 0};
-        const std::uint32_t near = all & meet_triangles(bounds, box, g[ViewRows::depth][lane]);
+                          g[ViewRows::high_v][lane], g[ViewRows::depth][lane]};
+        const std::uint32_t near = all & before(triangles.bounds, box);
         if (near == 0) continue;
         if (!is_prepared) {
-          if (scratch_.triangles.size() <= scratch_.triangle_count)
-            scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
-          edge_on = lanes.prepare(scratch_.triangles[scratch_.triangle_count]);
+          edge_on = lanes.prepare(triangles);
           is_prepared = true;
         }
         const std::uint32_t group = row * kRowLanes + lane;
-        const GroupTest::Result result =
-            GroupTest(here.groups.groups[group])(scratch_.triangles[scratch_.triangle_count], near, edge_on);
+        const GroupTest::Result result = GroupTest(here.groups.groups[group])(triangles, near, edge_on);
         if (result.met == 0) continue;
         if (result.blocks != 0 && may_cover_) {
           here.groups.live[row] &= ~(1u << lane);
@@ -295,21 +289,6 @@ class LightWalk {
       ++work.nodes;
       if (is_leaf) ++work.leaves;
     }
-  }
-
-  static HWY_INLINE std::uint32_t meet_triangles(const ViewRows& triangles, const ViewBox& group, float farthest) {
-    const RayTag f;
-    std::uint32_t result = 0;
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto row = [&](ViewRows::Row r) { return hn::Load(f, triangles.rows[r] + i); };
-      const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, group.high_u)),
-                                hn::Ge(row(ViewRows::high_u), hn::Set(f, group.low_u)));
-      const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, group.high_v)),
-                                hn::Ge(row(ViewRows::high_v), hn::Set(f, group.low_v)));
-      const auto before = hn::Ge(row(ViewRows::depth), hn::Set(f, farthest));
-      result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
-    }
-    return result;
   }
 
   const TriangleBvh& bvh_;
