@@ -138,26 +138,29 @@ class LightRays {
     }
 #endif
     const auto zero = hn::Zero(f), scale = hn::Set(f, scale_);
-    auto off = zero, start_reach = zero, direction = zero;
+    auto off = zero, start_reach = zero, direction = zero, sum = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
       direction = hn::Max(direction, hn::Abs(d[k]));
       const auto origin = hn::Sub(hn::MulSub(o[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
       const auto to_start = hn::Mul(hn::Mul(d[k], tmin), scale), to_end = hn::Mul(hn::Mul(d[k], tmax), scale);
-      off = hn::Max(off, hn::Abs(hn::Add(origin, to_end)));
+      const auto end = hn::Abs(hn::Add(origin, to_end));
+      off = hn::Max(off, end);
       start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
       offset[k] = hn::Add(origin, to_start);
+      sum = hn::Add(sum, hn::Add(hn::Abs(offset[k]), end));
     }
     const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
     const auto depth = hn::Max(ax, hn::Max(ay, az)), w = hn::Div(hn::Set(f, 1.0f), depth);
     const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-22f), off);  // with the rounding of the end
     // Only where the end is well away from the start, compared with how far it is off, and where denormals, which the
-    // host may flush, are too small to matter. NaN is never good.
+    // host may flush, are too small to matter. A maximum may lose a NaN, but the sum is one then.
     const auto between = [&](RayVec x, float low, float high) {
       return hn::And(hn::Gt(x, hn::Set(f, low)), hn::Lt(x, hn::Set(f, high)));
     };
     const auto end_error = hn::Mul(reach, w);
     auto good = hn::And(hn::Lt(end_error, hn::Set(f, 0x1p-17f)), between(depth, 0x1p-30f, 0x1p20f));
+    good = hn::And(good, hn::Lt(sum, hn::Set(f, 0x1p23f)));
     good = hn::And(good, hn::And(hn::Lt(tmin, tmax), between(direction, 0x1p-90f, 0x1p30f)));
     const auto present = hn::FirstN(f, here);
     const auto keep = hn::And(good, present);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "index/triangle_bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "small_scene.h"
+#include "umbrix/executor.h"
+
+namespace umbrix::detail {
+namespace {
+
+/// Adds the ids below a node, whose triangles must be within the box.
+void collect(const TriangleBvh& bvh, const std::vector<Triangle>& triangles, std::uint32_t index, const Box& around,
+             std::vector<std::uint32_t>& ids) {
+  const BvhNode& node = bvh.node(index);
+  for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+    Box box;
+    for (int k = 0; k < 3; ++k) {
+      box.lower[k] = node.lower[k][lane];
+      box.upper[k] = node.upper[k][lane];
+    }
+    if (box.empty()) continue;
+    for (int k = 0; k < 3; ++k) ASSERT_TRUE(around.lower[k] <= box.lower[k] && box.upper[k] <= around.upper[k]);
+    if ((node.child[lane] & BvhNode::kLeaf) == 0) {
+      collect(bvh, triangles, node.child[lane], box, ids);
+      continue;
+    }
+    const TriangleRows& rows = bvh.rows(node.child[lane] & ~BvhNode::kLeaf);
+    ASSERT_TRUE(rows.count >= 1 && rows.count <= kRowLanes);
+    for (std::uint32_t i = 0; i < rows.count; ++i) {
+      ids.push_back(rows.id[i]);
+      for (int vertex = 0; vertex < 3; ++vertex) {
+        for (int k = 0; k < 3; ++k) {
+          const float x = rows.v[vertex][k][i];
+          ASSERT_EQ(x, triangles[rows.id[i]].v[vertex][k]);
+          ASSERT_TRUE(box.lower[k] <= x && x <= box.upper[k]);
+        }
+      }
+    }
+  }
+}
+
+Box everywhere() {
+  Box box;
+  box.lower = Vec3(-1e9f);
+  box.upper = Vec3(1e9f);
+  return box;
+}
+
+TEST(TriangleBvh, HoldsEachTriangleOnceWithinItsBoxes) {
+  for (const std::size_t count : {1u, 2u, 16u, 17u, 100u, 20000u}) {
+    SCOPED_TRACE(count);
+    std::vector<Triangle> triangles = random_soup(count, 0.1f, 7);
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (i % 5 != 3 || count < 5) kept.push_back(i);
+    const TriangleBvh bvh(triangles.data(), kept.data(), kept.size(), 0, nullptr);
+    std::vector<std::uint32_t> ids;
+    collect(bvh, triangles, 0, everywhere(), ids);
+    std::sort(ids.begin(), ids.end());
+    EXPECT_EQ(ids, kept);
+  }
+}
+
+TEST(TriangleBvh, TakesTrianglesThatAreAllTheSame) {
+  const std::vector<Triangle> triangles(5000, random_soup(1, 1, 1)[0]);
+  const SmallScene scene(triangles);
+  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  std::vector<std::uint32_t> ids;
+  collect(bvh, triangles, 0, everywhere(), ids);
+  EXPECT_EQ(ids.size(), triangles.size());
+}
+
+TEST(TriangleBvh, DoesNotDependOnTheExecutor) {
+  const std::vector<Triangle> triangles = random_soup(30000, 0.05f, 3);
+  const SmallScene scene(triangles);
+  const Executor backwards{[](void*, std::size_t count, void (*body)(void*, std::size_t), void* data) {
+                             for (std::size_t i = count; i > 0; --i) body(data, i - 1);
+                           },
+                           nullptr};
+  const TriangleBvh one(triangles.data(), scene.kept.data(), scene.kept.size(), 0, &backwards);
+  const TriangleBvh other(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  std::vector<std::uint32_t> a, b;
+  collect(one, triangles, 0, everywhere(), a);
+  collect(other, triangles, 0, everywhere(), b);
+  EXPECT_EQ(a, b);
+}
+
+TEST(TriangleBvh, IsEmptyWithoutTriangles) { EXPECT_TRUE(TriangleBvh(nullptr, nullptr, 0, 0, nullptr).empty()); }
+
+}  // namespace
+}  // namespace umbrix::detail
