@@ -89,6 +89,27 @@ Ray take_ray(ByteStream& bytes, const Numbers& numbers, const std::vector<oracle
   return ray;
 }
 
+// So many that they are answered together: to where the first ray starts, from beyond vertices and middles of edges,
+// from there, and from before.
+std::vector<Ray> rays_to_one_light(const cases::CaseData& data) {
+  const Ray& first = data.rays.front();
+  std::vector<Ray> rays;
+  for (std::size_t i = 0; !data.triangles.empty() && i < 160; ++i) {
+    const oracle::Triangle& t = data.triangles[i % data.triangles.size()];
+    const std::size_t a = i / data.triangles.size() % 3, b = i % 3 == 0 ? a : (a + 1) % 3;
+    const float distance = i % 4 == 0 ? 1 : i % 4 == 1 ? 0.75f : 2;
+    Ray ray{};
+    ray.tmax = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float target = 0.5f * t.v[a][k] + 0.5f * t.v[b][k];
+      ray.origin[k] = first.origin[k] + (target - first.origin[k]) * distance;
+      ray.direction[k] = first.origin[k] - ray.origin[k];
+    }
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
 // A complaint is told so that it can be kept as a test.
 void check_kernels(const cases::CaseData& data, bool all_targets, judge::Result& result) {
   judge::Options options;
@@ -105,7 +126,7 @@ void check_kernels(const cases::CaseData& data, bool all_targets, judge::Result&
 
 FrameOptions take_frame_options(ByteStream& bytes) {
   FrameOptions options;
-  options.method = static_cast<FrameMethod>(bytes.below(6));
+  options.method = static_cast<FrameMethod>(bytes.below(7));
   options.key = static_cast<PredictorKey>(bytes.below(2));
   options.rule = static_cast<PredictorRule>(bytes.below(3));
   options.links = static_cast<LinkMode>(bytes.below(3));
@@ -148,11 +169,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes_data, std::size_
   ByteStream bytes(bytes_data, size);
   const Numbers numbers = take_numbers(bytes);
   const FrameOptions frame_options = take_frame_options(bytes);
-  const bool all_targets = bytes.chance(4);
+  const std::size_t choice = bytes.below(16);
+  const bool all_targets = choice % 4 == 1, is_one_light = choice / 4 == 1;
   cases::CaseData data;
   data.triangles = take_triangles(bytes, numbers);
   while (!bytes.empty() && data.rays.size() < kMostRays) data.rays.push_back(take_ray(bytes, numbers, data.triangles));
   if (data.rays.empty()) return 0;
+  if (is_one_light) {
+    const std::vector<Ray> more = rays_to_one_light(data);
+    data.rays.insert(data.rays.begin(), more.begin(), more.end());
+  }
   judge::Result result;
   check_kernels(data, all_targets, result);
   check_frames(data, result.truth.occluded, frame_options);
