@@ -8,6 +8,7 @@
 #include "io/exr_header.h"
 #include "io/input_file.h"
 #include "io/load_error.h"
+#include "io/png_chunks.h"
 
 namespace umbrix::io::detail {
 namespace {
@@ -55,6 +56,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path) {
   const std::vector<unsigned char> start = read_start(path, kExrHeaderBytes, file_bytes);
   const std::string_view reader = find_reader(start);
   if (reader == "openexr") check_exr_header(start, file_bytes);
+  if (reader == "png") check_png_chunks(start, file_bytes);
   auto input = OIIO::ImageInput::create(reader.data());
   if (!input) bad_input("{}", one_line(OIIO::geterror()));
   OIIO::ImageSpec spec;

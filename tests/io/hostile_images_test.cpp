@@ -91,6 +91,22 @@ TEST(HostileImages, OpenExrHeadersThatLie) {
   }
 }
 
+TEST(HostileImages, PngChunksThatLie) {
+  const TempFolder folder;
+  const std::string good = written_image(folder, "good.png");
+  const std::size_t text = good.find("tEXt");
+  ASSERT_NE(text, std::string::npos);
+  std::string longer_than_the_file = good;
+  longer_than_the_file.replace(text - 4, 4, std::string("\x61\x70\x00\x15", 4));
+  const Status status = read(folder, "lie.png", longer_than_the_file);
+  EXPECT_EQ(status.code(), StatusCode::bad_input) << status.message();
+  EXPECT_NE(status.message().find("1634730005 bytes"), std::string::npos) << status.message();
+
+  const std::string chunk = std::string("\x00\x02\x00\x00zTXt", 8) + std::string((1u << 17) + 4, 'x');
+  const Status packed = read(folder, "lie.png", std::string(good).insert(text - 4, chunk));
+  EXPECT_EQ(packed.code(), StatusCode::resource_limit) << packed.message();
+}
+
 TEST(HostileImages, CutAnywhere) {
 #if defined(__SANITIZE_ADDRESS__)
   // libpng leaves OpenImageIO 2.4's reader by a jump, past destructors (docs/fuzzing.md).

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace umbrix::io::detail {
+
+/// Looks at the chunks in the start of a PNG file before libpng does, which asks for memory by a chunk's length: only
+/// image data may be longer than the file, and compressed texts must be short. Throws LoadError.
+void check_png_chunks(const std::vector<unsigned char>& start, std::uint64_t file_bytes);
+
+}  // namespace umbrix::io::detail
