@@ -59,7 +59,7 @@ table_row() {  # target
     -v edges="$(grep -o 'cov: [0-9]*' "$run/logs/$1.merge.log" | tail -n 1 | cut -c 6-)" '
     /^stat::number_of_executed_units:/ { executions += $2 }
     /^cpu_seconds:/ { cpu += $2 + $3 }
-    END { printf "| %s | %d | %.0f | %.0f | %d | %d | %d |\n", target, executions, cpu > 0 ? executions / cpu : 0, cpu, inputs, bytes, edges }
+    END { printf "| %s | %d | %.0f | %.0f | %d | %d | %d |\n", target, executions, (cpu > 0 ? executions / cpu : 0), cpu, inputs, bytes, edges }
   ' "$run/logs/$1.log"
 }
 

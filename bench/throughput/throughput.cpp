@@ -3,6 +3,7 @@
 // Shadow rays per second. All peers answer the same rays in one process; in each round every peer runs once, so that a
 // disturbance of the machine meets all of them, and the medians over the rounds are compared.
 #include <fmt/core.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -100,8 +101,9 @@ void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, boo
     const std::string name = fmt::format("embree:{}:{}", embree::mode_name(mode), suffix);
     peers.push_back({name, ask, true});
     if (!is_shuffled) continue;
-    const auto order = std::make_shared<LightOrder>();
-    Peer sorted{name + ":sorted", [ask, order](RaySpan rays, std::uint8_t* out) { order->ask(rays, out, ask); }, true};
+    const auto orders = std::make_shared<tbb::enumerable_thread_specific<LightOrder>>();
+    const Ask ask_sorted = [ask, orders](RaySpan rays, std::uint8_t* out) { orders->local().ask(rays, out, ask); };
+    Peer sorted{name + ":sorted", ask_sorted, true};
     sorted.is_sorted = true;
     peers.push_back(std::move(sorted));
   }
