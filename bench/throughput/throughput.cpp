@@ -117,7 +117,8 @@ double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* o
     peer.run({rays.data(), rays.size()}, out);
     return thread_seconds() - start;
   }
-  const std::size_t block_size = std::max<std::size_t>(4096, rays.size() / static_cast<std::size_t>(4 * threads));
+  const auto parts = static_cast<std::size_t>(threads);
+  const std::size_t block_size = std::max<std::size_t>(4096, (rays.size() + parts - 1) / parts);
   tbb::task_arena arena(threads);
   const double start = wall_seconds();
   arena.execute([&] {
