@@ -146,7 +146,7 @@ class LightPackets {
     if (HWY_UNLIKELY(is_open)) {
       for (std::uint32_t k = 0; k < count; ++k)
         for (std::uint32_t i = first; i < last && is_unsure(packets[k]); ++i)
-          decide(group, scratch_.sorted[i], packets[k]);
+          if (scratch_.sorted[i].edge_on == 0) decide(group, scratch_.sorted[i], packets[k]);
     }
     for (std::uint32_t k = 0; k < count; ++k) {
       for (std::uint32_t rest = ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)

@@ -128,6 +128,10 @@ struct LightViewScratch {
     segments.clear();
     for (FaceGroups& face : faces) face.groups.clear();
   }
+  std::uint64_t bytes() const noexcept {
+    const std::uint64_t rays = 4 * u.capacity() * sizeof(float) + records.capacity() * sizeof(Record);
+    return rays + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
+  }
   std::size_t group_count() const noexcept {
     std::size_t count = 0;
     for (const FaceGroups& face : faces) count += face.groups.size();
@@ -145,7 +149,12 @@ class LightViewTable : public WideTree {
       : WideTree(tree, triangles), bvh_(triangles, kept, kept_count, tree.scale_exponent, executor) {}
 
   const TriangleBvh& bvh() const noexcept { return bvh_; }
-  std::uint64_t bytes() const noexcept override { return WideTree::bytes() + bvh_.bytes(); }
+  std::uint64_t bytes() const noexcept override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::uint64_t held = WideTree::bytes() + bvh_.bytes();
+    for (const auto& scratch : idle_) held += scratch->bytes();
+    return held;
+  }
 
   /// Throws std::bad_alloc.
   std::unique_ptr<LightViewScratch> borrow() const {
