@@ -52,7 +52,10 @@ struct Range {
   bool is_leaf() const { return size() <= kRowLanes; }
 };
 
-float rows_of(std::size_t count) { return static_cast<float>((count + kRowLanes - 1) / kRowLanes); }
+float rows_of(std::size_t count) {
+  const std::size_t rows = (count + kRowLanes - 1) / kRowLanes;
+  return static_cast<float>(rows);
+}
 
 /// Cuts ranges of references, which it orders so that each part is together.
 class Cutter {
