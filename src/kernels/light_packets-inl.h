@@ -137,7 +137,7 @@ class LightPackets {
       for (std::uint32_t k = 0; k < count; ++k) {
         if (hn::AllTrue(RayTag(), packets[k].blocked)) continue;
         ++left;
-        test(triangles, m.lanes & before(triangles.bounds, packets[k].box), group, packets[k]);
+        test(triangles, m.lanes & meeting<Starts::in_box>(triangles.bounds, packets[k].box), group, packets[k]);
       }
       if (left == 0) break;
     }
@@ -222,7 +222,7 @@ class LightPackets {
   HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet& p) {
     const LightTriangles& triangles = scratch_.triangles[m.triangles];
     const std::uint32_t lanes = m.lanes | m.edge_on;
-    for (std::uint32_t rest = lanes & before(triangles.bounds, p.box); rest != 0; rest &= rest - 1) {
+    for (std::uint32_t rest = lanes & meeting<Starts::in_box>(triangles.bounds, p.box); rest != 0; rest &= rest - 1) {
       if constexpr (kCounts) {
         if (!plain_ || m.edge_on != 0) count_tests(p);  // others were counted before
       }

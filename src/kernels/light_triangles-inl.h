@@ -45,18 +45,24 @@ HWY_INLINE RayVec dot(const LaneVec3& a, const LaneVec3& b) {
 /// A bound of the length.
 HWY_INLINE RayVec length(const LaneVec3& a) { return hn::Mul(hn::Sqrt(dot(a, a)), hn::Set(RayTag(), 1 + 0x1p-20f)); }
 
-/// Lanes whose triangles may be before starts in a box: the depth is that of the farthest.
-HWY_INLINE std::uint32_t before(const ViewRows& triangles, const ViewBox& starts) {
+/// Which of rows and boxes are starts, the other being what may block them.
+enum class Starts { in_rows, in_box };
+
+/// Lanes whose rectangles meet the box's, where the blocker's nearest point is no farther than the farthest start.
+template <Starts kStarts>
+HWY_INLINE std::uint32_t meeting(const ViewRows& rows, const ViewBox& box) {
   const RayTag f;
   std::uint32_t result = 0;
   for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-    const auto row = [&](ViewRows::Row r) { return hn::Load(f, triangles.rows[r] + i); };
-    const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, starts.high_u)),
-                              hn::Ge(row(ViewRows::high_u), hn::Set(f, starts.low_u)));
-    const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, starts.high_v)),
-                              hn::Ge(row(ViewRows::high_v), hn::Set(f, starts.low_v)));
-    const auto is_nearer = hn::Ge(row(ViewRows::depth), hn::Set(f, starts.depth));
-    result |= ray_bits(hn::And(hn::And(in_u, in_v), is_nearer)) << i;
+    const auto row = [&](ViewRows::Row r) { return hn::Load(f, rows.rows[r] + i); };
+    const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, box.high_u)),
+                              hn::Ge(row(ViewRows::high_u), hn::Set(f, box.low_u)));
+    const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, box.high_v)),
+                              hn::Ge(row(ViewRows::high_v), hn::Set(f, box.low_v)));
+    const auto depth = hn::Set(f, box.depth);
+    const auto is_before =
+        kStarts == Starts::in_rows ? hn::Le(row(ViewRows::depth), depth) : hn::Ge(row(ViewRows::depth), depth);
+    result |= ray_bits(hn::And(hn::And(in_u, in_v), is_before)) << i;
   }
   return result;
 }

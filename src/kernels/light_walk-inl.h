@@ -185,21 +185,6 @@ class LightWalk {
     return true;
   }
 
-  static HWY_INLINE std::uint32_t meet(const ViewRows& groups, const ViewBox& box) {
-    const RayTag f;
-    std::uint32_t result = 0;
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto row = [&](ViewRows::Row r) { return hn::Load(f, groups.rows[r] + i); };
-      const auto in_u = hn::And(hn::Le(row(ViewRows::low_u), hn::Set(f, box.high_u)),
-                                hn::Ge(row(ViewRows::high_u), hn::Set(f, box.low_u)));
-      const auto in_v = hn::And(hn::Le(row(ViewRows::low_v), hn::Set(f, box.high_v)),
-                                hn::Ge(row(ViewRows::high_v), hn::Set(f, box.low_v)));
-      const auto before = hn::Le(row(ViewRows::depth), hn::Set(f, box.depth));
-      result |= ray_bits(hn::And(hn::And(in_u, in_v), before)) << i;
-    }
-    return result;
-  }
-
   /// `first` and `count` name entries of the lists, a row of groups and lanes of it; from `top` on there is room.
   void visit(Here& here, std::uint32_t index, std::size_t first, std::size_t count, std::size_t top) {
     const BvhNode& node = bvh_.node(index);
@@ -219,7 +204,7 @@ class LightWalk {
       if constexpr (kCounts) share(row, lanes, false);
       for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
         if (!on_side[child]) continue;
-        const std::uint32_t met = lanes & meet(here.groups.rows[row], boxes[child]);
+        const std::uint32_t met = lanes & meeting<Starts::in_rows>(here.groups.rows[row], boxes[child]);
         if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
       }
     }
@@ -260,7 +245,7 @@ class LightWalk {
         const auto& g = here.groups.rows[row].rows;
         const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
                           g[ViewRows::high_v][lane], g[ViewRows::depth][lane]};
-        const std::uint32_t near = all & before(triangles.bounds, box);
+        const std::uint32_t near = all & meeting<Starts::in_box>(triangles.bounds, box);
         if (near == 0) continue;
         if (!is_prepared) {
           edge_on = lanes.prepare(triangles);
