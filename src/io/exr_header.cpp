@@ -151,4 +151,19 @@ void check_exr_header(const std::vector<unsigned char>& start, std::uint64_t fil
   }
 }
 
+bool has_all_exr_rows(const std::vector<unsigned char>& start, std::uint64_t file_bytes) {
+  Reader reader(start, file_bytes);
+  reader.skip(8);
+  Header header;
+  read_header(reader, header);
+  check_header(header, file_bytes);
+  const std::uint64_t chunks = parts(static_cast<std::uint64_t>(header.height), rows_of_chunk(header.compression));
+  for (std::uint64_t i = 0; i < chunks; ++i) {
+    const auto offset = reader.number<std::uint64_t>();
+    if (offset == 0 || offset >= file_bytes) return false;
+    reader.skip(sizeof offset);
+  }
+  return true;
+}
+
 }  // namespace umbrix::io::detail

@@ -13,4 +13,8 @@ inline constexpr std::uint64_t kExrHeaderBytes = 16u << 20;
 /// longer than the file, tables of chunks and buffers of rows for an image of any size. Throws LoadError.
 void check_exr_header(const std::vector<unsigned char>& start, std::uint64_t file_bytes);
 
+/// Of a file of one part, written in rows: has its table of offsets a place for each of them? OpenEXR may lose some for
+/// want of memory, and say nothing. Throws LoadError if the header is not one.
+bool has_all_exr_rows(const std::vector<unsigned char>& start, std::uint64_t file_bytes);
+
 }  // namespace umbrix::io::detail
