@@ -18,6 +18,7 @@
 #include "render/vec.h"
 #include "report.h"
 #include "umbrix/io/image_file.h"
+#include "workload/shadow_rays.h"
 
 namespace umbrix::bench {
 namespace {
@@ -36,12 +37,6 @@ struct Studio {
   std::vector<Tracing> tracings;
 };
 
-double diagonal(const Scene& scene) {
-  float lower[3], upper[3];
-  if (!scene.bounds(lower, upper)) return 0;
-  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
-}
-
 /// The light itself if it has an area, else a sphere around it that gives off as much.
 io::Light area_light(const io::Light& light, double radius) {
   if (io::light_type_info(light.type).has(io::kHasArea)) return light;
@@ -55,7 +50,7 @@ io::Light area_light(const io::Light& light, double radius) {
 Status set_up(const workload::Geometry& geometry, const io::Camera& camera, const io::Light& light,
               const ImageCurveOptions& options, Studio& studio) {
   if (Status status = render::build_world(geometry.file, {}, studio.world); !status) return status;
-  const double radius = options.radius * diagonal(studio.world.scene);
+  const double radius = options.radius * workload::diagonal(studio.world.scene);
   studio.view = {camera, {area_light(light, radius)}};
   for (const std::string& name : options.kernels) {
     Tracing tracing{name};

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double diagonal(const Scene& scene) {
-  float lower[3], upper[3];
-  if (!scene.bounds(lower, upper)) return 0;
-  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
-}
-
 // To the disc that a point sees of the sphere, a ray for each of 4x4 strata, the other ends moved within theirs.
 void add_area_rays(const Ray& to_center, double radius, std::mt19937& random, std::vector<Ray>& out) {
   const double n[3] = {to_center.direction[0], to_center.direction[1], to_center.direction[2]};
@@ -56,7 +50,7 @@ Status make_phase(const std::string& name, const Scene& scene, const workload::G
     out.rays = frame(viewpoint.camera, size);
   } else if (name.rfind("next:", 0) == 0) {
     io::Camera moved = viewpoint.camera;
-    const double step = std::atof(name.c_str() + 5) * diagonal(scene);
+    const double step = std::atof(name.c_str() + 5) * workload::diagonal(scene);
     for (auto& row : moved.to_world) row[3] += step * row[0];
     out.before = frame(viewpoint.camera, size);
     out.rays = frame(moved, size);
@@ -66,7 +60,7 @@ Status make_phase(const std::string& name, const Scene& scene, const workload::G
     out.is_shuffled = true;
   } else if (name == "area") {
     for (const Ray& ray : frame(viewpoint.camera, std::max(1, size / 4)))
-      if (std::isfinite(ray.tmax)) add_area_rays(ray, diagonal(scene) / 80, random, out.rays);
+      if (std::isfinite(ray.tmax)) add_area_rays(ray, workload::diagonal(scene) / 80, random, out.rays);
   } else {
     return {StatusCode::invalid_argument,
             fmt::format("there is no phase '{}'; there are first, next:D, shuffled and area", name)};

@@ -31,12 +31,6 @@ Double3 facing_normal(const oracle::Triangle& t, const Ray& ray) {
   return n;
 }
 
-double diagonal(const Scene& scene) {
-  float lower[3], upper[3];
-  if (!scene.bounds(lower, upper)) return 0;
-  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
-}
-
 // The segment from a primary hit to the light, and the irradiance that it would bring; false if the surface faces away.
 bool shadow_ray(const Ray& primary, const Hit& hit, const oracle::Triangle& triangle, const io::Light& light,
                 double offset, Ray& out, float& irradiance) {
@@ -74,6 +68,12 @@ std::vector<std::array<int, 2>> tile_pixels(int tile_x, int tile_y, int size) {
 }
 
 }  // namespace
+
+double diagonal(const Scene& scene) {
+  float lower[3], upper[3];
+  if (!scene.bounds(lower, upper)) return 0;
+  return std::hypot(double{upper[0]} - lower[0], double{upper[1]} - lower[1], double{upper[2]} - lower[2]);
+}
 
 Status find_viewpoint(const Geometry& geometry, const std::string& setup_path, Viewpoint& out) {
   const io::SceneFile& file = geometry.file;

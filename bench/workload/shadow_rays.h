@@ -14,6 +14,9 @@
 
 namespace umbrix::workload {
 
+/// Of the scene's bounds; 0 if there is nothing.
+double diagonal(const Scene& scene);
+
 /// Where the eye and the lights are.
 struct Viewpoint {
   io::Camera camera;
