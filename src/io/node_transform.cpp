@@ -74,7 +74,11 @@ glm::dvec3 direction(const glm::dvec3& v, const char* what, const std::string& l
 Transform camera_frame(const glm::dmat4& m, const std::string& label) {
   const glm::dvec3 z = direction(m[2], "camera", label);
   const glm::dvec3 y = direction(m[1], "camera", label);
-  const glm::dvec3 x = direction(glm::cross(y, z), "camera", label);
+  // Of vectors that are nearly parallel, rounding is most of the cross product.
+  const glm::dvec3 across = glm::cross(y, z);
+  const bool is_flat = !(glm::length(across) > 1e-12);
+  const glm::dvec3 side = direction(is_flat ? glm::dvec3(0) : across, "camera", label);
+  const glm::dvec3 x = glm::normalize(side - glm::dot(side, z) * z);
   return to_transform(glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), m[3]));
 }
 
