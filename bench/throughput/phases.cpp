@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace umbrix::bench {
 namespace {
@@ -40,31 +41,35 @@ void add_area_rays(const Ray& to_center, double radius, std::mt19937& random, st
 }  // namespace
 
 Status make_phase(const std::string& name, const Scene& scene, const workload::Geometry& geometry,
-                  const workload::Viewpoint& viewpoint, std::size_t light, int size, Phase& out) {
+                  const workload::Viewpoint& viewpoint, std::size_t light, int size, int rounds, Phase& out) {
   out.name = name;
   const auto frame = [&](const io::Camera& camera, int wide) {
     return workload::shadow_rays(scene, geometry, camera, viewpoint.lights[light], wide);
   };
   std::mt19937 random(1);
+  std::vector<Ray> rays;
   if (name == "first") {
-    out.rays = frame(viewpoint.camera, size);
+    rays = frame(viewpoint.camera, size);
   } else if (name.rfind("next:", 0) == 0) {
-    io::Camera moved = viewpoint.camera;
     const double step = std::atof(name.c_str() + 5) * workload::diagonal(scene);
-    for (auto& row : moved.to_world) row[3] += step * row[0];
-    out.before = frame(viewpoint.camera, size);
-    out.rays = frame(moved, size);
+    io::Camera camera = viewpoint.camera;
+    out.before = frame(camera, size);
+    for (int round = 0; round < rounds; ++round) {
+      for (auto& row : camera.to_world) row[3] += step * row[0];
+      out.frames.push_back(frame(camera, size));
+    }
   } else if (name == "shuffled") {
-    out.rays = frame(viewpoint.camera, size);
-    std::shuffle(out.rays.begin(), out.rays.end(), random);
+    rays = frame(viewpoint.camera, size);
+    std::shuffle(rays.begin(), rays.end(), random);
     out.is_shuffled = true;
   } else if (name == "area") {
     for (const Ray& ray : frame(viewpoint.camera, std::max(1, size / 4)))
-      if (std::isfinite(ray.tmax)) add_area_rays(ray, workload::diagonal(scene) / 80, random, out.rays);
+      if (std::isfinite(ray.tmax)) add_area_rays(ray, workload::diagonal(scene) / 80, random, rays);
   } else {
     return {StatusCode::invalid_argument,
             fmt::format("there is no phase '{}'; there are first, next:D, shuffled and area", name)};
   }
+  if (out.frames.empty()) out.frames.push_back(std::move(rays));
   return {};
 }
 

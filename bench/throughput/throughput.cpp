@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Shadow rays per second. All peers answer the same rays in one process; in each round every peer runs once, so that a
-// disturbance of the machine meets all of them, and the medians over the rounds are compared.
+// disturbance of the machine meets all of them. The medians over the rounds are compared, or where each round has a
+// frame of its own, the sums: what is made in some frames for those that follow is paid for.
 #include <fmt/core.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -45,9 +46,9 @@ struct Peer {
   std::string name;
   Ask run;
   bool is_embree = false;
-  bool is_sorted = false;             ///< its host sorts the rays for it
-  std::function<void()> before = {};  ///< not timed, before each run
-  std::vector<std::uint8_t> answers = {};
+  bool is_sorted = false;                               ///< its host sorts the rays for it
+  std::function<void()> begin = {}, end = {};           ///< of a frame, timed with it
+  std::vector<std::vector<std::uint8_t>> answers = {};  ///< of each frame
   std::vector<double> seconds = {};
   std::uint64_t wrong = 0;
 };
@@ -77,20 +78,20 @@ Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles
   return {};
 }
 
-// A frame tracer that has seen the frame before.
-void add_frames(FrameTracer& tracer, const Phase& phase, std::vector<Peer>& peers) {
+// What is learnt from frame to frame.
+void add_frames(FrameTracer& tracer, std::vector<Peer>& peers) {
   const auto trace = [&tracer](RaySpan rays, std::uint8_t* out) {
     ShadowTile tile;
     tile.rays = rays;
     tracer.occluded(tile, out);
   };
   Peer peer{"umbrix:frames", trace};
-  peer.before = [&tracer, &phase, trace] {
-    if (!tracer.begin_frame()) return;
-    std::vector<std::uint8_t> answers(phase.before.size());
-    trace({phase.before.data(), phase.before.size()}, answers.data());
-    tracer.end_frame();
+  peer.begin = [&tracer, frame = std::int64_t{0}]() mutable {
+    FrameView view;
+    view.frame = frame++;
+    static_cast<void>(tracer.begin_frame(view));  // without memory it goes on as the first frame
   };
+  peer.end = [&tracer] { tracer.end_frame(); };
   peers.push_back(std::move(peer));
 }
 
@@ -109,38 +110,55 @@ void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, boo
   }
 }
 
-// One run over all rays: processor time of this thread, or with several threads the wall time.
-double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
-  if (peer.before) peer.before();
-  if (threads == 1) {
-    const double start = thread_seconds();
-    peer.run({rays.data(), rays.size()}, out);
-    return thread_seconds() - start;
-  }
+// Processor time of this thread, or with several threads the wall time.
+double seconds_now(int threads) { return threads == 1 ? thread_seconds() : wall_seconds(); }
+
+void run(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
   const auto parts = static_cast<std::size_t>(threads);
   const std::size_t block_size = std::max<std::size_t>(4096, (rays.size() + parts - 1) / parts);
-  tbb::task_arena arena(threads);
-  const double start = wall_seconds();
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
-      const std::size_t begin = block * block_size;
-      peer.run({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
-    });
+  if (threads == 1 || rays.size() <= block_size) {
+    peer.run({rays.data(), rays.size()}, out);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
+    const std::size_t begin = block * block_size;
+    peer.run({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
   });
-  return wall_seconds() - start;
+}
+
+// One frame.
+double time_once(const Peer& peer, const std::vector<Ray>& rays, std::vector<std::uint8_t>& answers, int threads) {
+  answers.resize(rays.size());
+  tbb::task_arena arena(threads);
+  const double start = seconds_now(threads);
+  if (peer.begin) peer.begin();
+  if (threads == 1)
+    run(peer, rays, answers.data(), 1);
+  else
+    arena.execute([&] { run(peer, rays, answers.data(), threads); });
+  if (peer.end) peer.end();
+  return seconds_now(threads) - start;
 }
 
 // Whatever the peers do not agree on, exact arithmetic decides.
-void judge(const workload::Geometry& geometry, const std::vector<Ray>& rays, std::vector<Peer>& peers) {
-  std::vector<const std::vector<std::uint8_t>*> answers;
-  for (const Peer& peer : peers) answers.push_back(&peer.answers);
-  const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, rays, answers);
-  for (std::size_t i = 0; i < peers.size(); ++i) peers[i].wrong = wrong[i];
+void judge(const workload::Geometry& geometry, const Phase& phase, std::vector<Peer>& peers) {
+  for (std::size_t frame = 0; frame < phase.frames.size(); ++frame) {
+    std::vector<const std::vector<std::uint8_t>*> answers;
+    for (const Peer& peer : peers) answers.push_back(&peer.answers[frame]);
+    const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, phase.frames[frame], answers);
+    for (std::size_t i = 0; i < peers.size(); ++i) peers[i].wrong += wrong[i];
+  }
 }
 
-double rays_per_microsecond(const Peer& peer, std::size_t rays) {
-  const double seconds = median(peer.seconds);
-  return seconds > 0 ? 1e-6 * static_cast<double>(rays) / seconds : 0;
+// Of the median round, or of all frames together.
+double rays_per_microsecond(const Peer& peer, const Phase& phase) {
+  double rays = static_cast<double>(phase.frames[0].size()), seconds = median(peer.seconds);
+  if (phase.frames.size() > 1) {
+    rays = seconds = 0;
+    for (const auto& frame : phase.frames) rays += static_cast<double>(frame.size());
+    for (const double x : peer.seconds) seconds += x;
+  }
+  return seconds > 0 ? 1e-6 * rays / seconds : 0;
 }
 
 // Prints the table of a scene and a phase, and adds it to the report.
@@ -148,20 +166,22 @@ void report(const workload::Geometry& geometry, const Phase& phase, const Settin
             const std::vector<Peer>& peers, nlohmann::json& rows) {
   double best_embree = 0, best_sorted = 0, reference = 0;
   for (const Peer& peer : peers) {
-    const double speed = rays_per_microsecond(peer, phase.rays.size());
+    const double speed = rays_per_microsecond(peer, phase);
     double& best = peer.is_sorted ? best_sorted : best_embree;
     if (peer.is_embree) best = std::max(best, speed);
     if (peer.name == kReferenceEmbree) reference = speed;
   }
-  const auto occluded = std::count(peers[0].answers.begin(), peers[0].answers.end(), std::uint8_t{1});
-  const auto share = phase.rays.empty() ? 0.0 : static_cast<double>(occluded) / static_cast<double>(phase.rays.size());
+  const std::vector<std::uint8_t>& answers = peers[0].answers[0];
+  const auto occluded = std::count(answers.begin(), answers.end(), std::uint8_t{1});
+  const auto rays = static_cast<double>(phase.frames[0].size());
+  const double share = rays > 0 ? static_cast<double>(occluded) / rays : 0;
   fmt::print("{}, {}: {} triangles, {} rays, {:.1f} % occluded\n", geometry.name, phase.name, geometry.triangle_count(),
-             phase.rays.size(), 100 * share);
+             phase.frames[0].size(), 100 * share);
   fmt::print("  {:<40} {:>9} {:>8} {:>10} {:>12} {:>7}\n", "peer", "Mrays/s", "spread", "/ best E", "/ E single r",
              "wrong");
   const auto ratio = [](double speed, double other) { return other > 0 ? speed / other : 0; };
   for (const Peer& peer : peers) {
-    const double speed = rays_per_microsecond(peer, phase.rays.size());
+    const double speed = rays_per_microsecond(peer, phase);
     const auto [fastest, slowest] = std::minmax_element(peer.seconds.begin(), peer.seconds.end());
     const double spread = ratio(*slowest - *fastest, median(peer.seconds));
     fmt::print("  {:<40} {:>9.2f} {:>7.1f}% {:>10.3f} {:>12.3f} {:>7}\n", peer.name, speed, 100 * spread,
@@ -170,8 +190,10 @@ void report(const workload::Geometry& geometry, const Phase& phase, const Settin
                     {"phase", phase.name},
                     {"threads", settings.threads},
                     {"peer", peer.name},
-                    {"rays", phase.rays.size()},
+                    {"rays", phase.frames[0].size()},
+                    {"frames", phase.frames.size()},
                     {"mrays_per_s", speed},
+                    {"seconds", peer.seconds},
                     {"spread", spread},
                     {"ratio_to_best_embree", ratio(speed, best_embree)},
                     {"ratio_to_best_sorted_embree", ratio(speed, best_sorted)},
@@ -198,22 +220,22 @@ struct EmbreeScenes {
 Status measure_phase(const Settings& settings, const workload::Geometry& geometry, const Phase& phase, Scene& scene,
                      const EmbreeScenes& embree, nlohmann::json& rows, bool& any_wrong) {
   std::vector<Peer> peers;
-  const std::vector<Ray>& rays = phase.rays;
-  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), rays, peers); !status) return status;
+  const std::vector<Ray>& first = phase.before.empty() ? phase.frames[0] : phase.before;
+  if (Status status = add_kernels(settings, scene, geometry.triangle_count(), first, peers); !status) return status;
   FrameTracer tracer;
   if (Status status = tracer.start(scene); !status) return status;
-  if (!phase.before.empty()) add_frames(tracer, phase, peers);
+  if (!phase.before.empty()) add_frames(tracer, peers);
   if (settings.has_embree) embree.add(phase.is_shuffled, peers);
   for (Peer& peer : peers) {
-    peer.answers.resize(rays.size());
-    time_once(peer, rays, peer.answers.data(), settings.threads);  // warms up, and is not counted
+    peer.answers.resize(phase.frames.size());
+    time_once(peer, first, peer.answers[0], settings.threads);  // warms up, and is not counted
   }
-  for (int round = 0; round < settings.rounds; ++round) {
-    for (Peer& peer : peers) {
-      peer.seconds.push_back(time_once(peer, rays, peer.answers.data(), settings.threads));
-    }
+  for (std::size_t round = 0; round < static_cast<std::size_t>(settings.rounds); ++round) {
+    const std::size_t frame = round % phase.frames.size();
+    for (Peer& peer : peers)
+      peer.seconds.push_back(time_once(peer, phase.frames[frame], peer.answers[frame], settings.threads));
   }
-  judge(geometry, rays, peers);
+  judge(geometry, phase, peers);
   report(geometry, phase, settings, peers, rows);
   any_wrong = any_wrong || std::any_of(peers.begin(), peers.end(),
                                        [](const Peer& peer) { return !peer.is_embree && peer.wrong > 0; });
@@ -237,9 +259,11 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
   if (Status status = embree.build(views); !status) return status;
   for (const std::string& name : settings.phases) {
     Phase phase;
-    if (Status status = make_phase(name, scene, geometry, viewpoint, settings.light, settings.size, phase); !status)
+    if (Status status =
+            make_phase(name, scene, geometry, viewpoint, settings.light, settings.size, settings.rounds, phase);
+        !status)
       return status;
-    if (phase.rays.empty()) continue;
+    if (phase.frames[0].empty()) continue;
     if (Status status = measure_phase(settings, geometry, phase, scene, embree, rows, any_wrong); !status)
       return status;
   }

@@ -60,7 +60,7 @@ class LightTrace {
   static constexpr int kMostScale = 60;
 
   bool trace(const GroupRays& rays, LightViewScratch& scratch) {
-    LightRays light_rays(*scene_.tree, rays.rays, scratch);
+    LightRays light_rays(rays.rays, power_of_two(scene_.tree->scale_exponent), scratch);
     if (!light_rays.read()) return false;
     const bool may_cover = !rays.skip && Filter(scene_, rays.mask).passes_all();
     const auto walk = [&] {
