@@ -77,9 +77,9 @@ class LightGroups {
   float layers() const { return overlap_.layers(); }
 
   /// Rays from `first` on, which are all of the face and within the rectangle: cuts it in the middle of its longer
-  /// side, down to few rays.
-  void split(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
-    if (count <= kGroupRays) {
+  /// side, down to `most` rays, at most kGroupRays.
+  void split(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r, std::uint32_t most) {
+    if (count <= most) {
       add_group(face, first, count, r);
       return;
     }
@@ -88,11 +88,11 @@ class LightGroups {
     std::size_t lows =
         partition(first, count, by_u, by_u ? 0.5f * (r.low_u + r.high_u) : 0.5f * (r.low_v + r.high_v), low, high);
     if (lows == 0 || lows == count) {  // starts that cannot be told apart
-      lows = kGroupRays;
+      lows = most;
       low = high = r;
     }
-    split(face, first, lows, low);
-    split(face, first + lows, count - lows, high);
+    split(face, first, lows, low, most);
+    split(face, first + lows, count - lows, high, most);
   }
 
   /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
@@ -117,13 +117,15 @@ class LightGroups {
     std::size_t first = 0;
     for (std::uint32_t cell = 0; cell + 1 < ends.size(); ++cell) {
       const std::size_t count = ends[cell] - first;
-      if (count != 0) split(cell / (kCells * kCells), first, count, bounds(first, count));
+      if (count != 0) split(cell / (kCells * kCells), first, count, bounds(first, count), kSortedGroupRays);
       first = ends[cell];
     }
   }
 
  private:
   static constexpr std::uint32_t kCells = 64;  ///< of a face, along a side
+  /// Rays that had to be sorted have little in common but their direction.
+  static constexpr std::uint32_t kSortedGroupRays = 48;
 
   static std::uint32_t spread_bits(std::uint32_t x) {  // a zero before each of 8 bits
     x = (x | x << 4) & 0x0F0Fu;

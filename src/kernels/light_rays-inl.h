@@ -60,31 +60,91 @@ class LightRays {
 
  private:
   static constexpr float kMostLayers = 5;
+  /// A part has about so many.
+  static constexpr std::uint32_t kPartRays = 24;
 
-  /// Picks the run's rays of a face, and cuts them into groups.
+  /// A rectangle in up to eight parts, halves of halves.
+  class Parts {
+   public:
+    Parts(const Rectangle& r, std::uint32_t wanted) : r_(r) {
+      float du = r.high_u - r.low_u, dv = r.high_v - r.low_v;
+      while (columns_ * rows_ < 8 && static_cast<std::uint32_t>(columns_ * rows_) < wanted) {
+        const bool by_u = du >= dv;
+        (by_u ? columns_ : rows_) *= 2;
+        (by_u ? du : dv) *= 0.5f;
+      }
+      by_u_ = static_cast<float>(columns_) / std::max(r.high_u - r.low_u, 0x1p-60f);
+      by_v_ = static_cast<float>(rows_) / std::max(r.high_v - r.low_v, 0x1p-60f);
+    }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(columns_ * rows_); }
+    HWY_INLINE hn::Vec<RayBitsTag> find(RayVec u, RayVec v) const {
+      const RayTag f;
+      const RayBitsTag n;
+      const auto place = [&](RayVec x, float low, float scale, std::int32_t count) {
+        const auto part = hn::ConvertTo(n, hn::Mul(hn::Sub(x, hn::Set(f, low)), hn::Set(f, scale)));
+        return hn::Min(part, hn::Set(n, count - 1));
+      };
+      return hn::Add(hn::Mul(place(v, r_.low_v, by_v_, rows_), hn::Set(n, columns_)),
+                     place(u, r_.low_u, by_u_, columns_));
+    }
+
+   private:
+    Rectangle r_;
+    std::int32_t columns_ = 1, rows_ = 1;
+    float by_u_, by_v_;
+  };
+
+  /// Picks the run's rays of a face, and cuts them into groups: as many equal parts of their rectangle as may do, which
+  /// are cut further where they do not.
   void take_face(const RayRun& run, std::uint32_t number) {
     const RayTag f;
     const RayBitsTag n;
     const auto wanted = hn::Set(n, static_cast<std::int32_t>(number));
-    const std::size_t first = scratch_.ray_count;
     Spread spread;
+    std::uint32_t count = 0;
     for_lanes(0, run.count, [&](std::size_t i, RayMask use) {
-      const auto keep = hn::And(use, hn::RebindMask(f, hn::Eq(hn::LoadU(n, run.face + i), wanted)));
-      if (hn::AllFalse(f, keep)) return;
-      const auto u = hn::LoadU(f, run.u + i), v = hn::LoadU(f, run.v + i);
-      const auto w = hn::LoadU(f, run.w + i);
+      const auto keep = hn::And(use, hn::RebindMask(f, hn::Eq(hn::Load(n, run.face + i), wanted)));
+      spread.add(hn::Load(f, run.u + i), hn::Load(f, run.v + i), keep);
+      count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
+    });
+    if (count == 0) return;
+    scratch_.segments.push_back({number, scratch_.ray_count, count});
+    const Rectangle whole = spread.get();
+    const Parts parts(whole, is_sorting_ ? 1 : count / kPartRays);
+    alignas(64) std::int32_t part_of[kMostRays + kRowLanes];
+    for_lanes(0, run.count, [&](std::size_t i, RayMask use) {
+      const auto keep = hn::And(hn::RebindMask(n, use), hn::Eq(hn::Load(n, run.face + i), wanted));
+      const auto part = parts.find(hn::Load(f, run.u + i), hn::Load(f, run.v + i));
+      hn::Store(hn::IfThenElse(keep, part, hn::Set(n, -1)), n, part_of + i);
+    });
+    for (std::uint32_t part = 0; part < parts.count(); ++part) {
+      const std::size_t first = scratch_.ray_count;
+      const Rectangle rectangle = take_part(run, part_of, part);
+      if (scratch_.ray_count != first && !is_sorting_)
+        groups_.split(number, first, scratch_.ray_count - first, rectangle, kGroupRays);
+    }
+  }
+
+  Rectangle take_part(const RayRun& run, const std::int32_t* part_of, std::uint32_t part) {
+    const RayTag f;
+    const RayBitsTag n;
+    const auto wanted = hn::Set(n, static_cast<std::int32_t>(part));
+    Spread spread;
+    std::size_t at = scratch_.ray_count;
+    for (std::size_t i = 0; i < run.count; i += hn::Lanes(f)) {
+      const auto whole = hn::Eq(hn::Load(n, part_of + i), wanted);
+      const auto keep = hn::RebindMask(f, whole);
+      if (hn::AllFalse(f, keep)) continue;
+      const auto u = hn::Load(f, run.u + i), v = hn::Load(f, run.v + i), w = hn::Load(f, run.w + i);
       spread.add(u, v, keep);
-      const std::size_t at = scratch_.ray_count;
       hn::StoreU(hn::Compress(u, keep), f, scratch_.u.data() + at);
       hn::StoreU(hn::Compress(v, keep), f, scratch_.v.data() + at);
       hn::StoreU(hn::Compress(w, keep), f, scratch_.w.data() + at);
-      hn::StoreU(hn::Compress(hn::LoadU(n, run.name + i), hn::RebindMask(n, keep)), n, scratch_.name.data() + at);
-      scratch_.ray_count += hn::CountTrue(f, keep);
-    });
-    const std::size_t count = scratch_.ray_count - first;
-    if (count == 0) return;
-    scratch_.segments.push_back({number, first, count});
-    if (!is_sorting_) groups_.split(number, first, count, spread.get());
+      hn::StoreU(hn::Compress(hn::Load(n, run.name + i), whole), n, scratch_.name.data() + at);
+      at += hn::CountTrue(f, keep);
+    }
+    scratch_.ray_count = at;
+    return spread.get();
   }
 
   RaySpan rays_;

@@ -37,7 +37,7 @@ struct ViewErrors {
 };
 
 /// The most rays of a group.
-inline constexpr std::uint32_t kGroupRays = 48;
+inline constexpr std::uint32_t kGroupRays = 64;
 
 /// Rays of one face whose starts are near each other as the light sees them.
 struct RayGroup {
