@@ -63,7 +63,7 @@ Status make_phase(const std::string& name, const Scene& scene, const workload::G
       if (std::isfinite(ray.tmax)) add_area_rays(ray, workload::diagonal(scene) / 80, random, out.rays);
   } else {
     return {StatusCode::invalid_argument,
-            fmt::format("there is no phase '{}'; there are first, next:D, shuffled and area", name)};
+            fmt::format("there is no phase '{}'; there are first, next:D, shuffled, area and build+first", name)};
   }
   return {};
 }

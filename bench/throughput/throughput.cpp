@@ -4,7 +4,6 @@
 // disturbance of the machine meets all of them, and the medians over the rounds are compared.
 #include <fmt/core.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -16,6 +15,8 @@
 #include "command.h"
 #include "embree/embree_scene.h"
 #include "report.h"
+#include "throughput/ask.h"
+#include "throughput/first_frame.h"
 #include "throughput/light_order.h"
 #include "throughput/phases.h"
 #include "umbrix/umbrix.h"
@@ -38,8 +39,6 @@ struct Settings {
   std::size_t light = 0;
   bool has_embree = true;
 };
-
-using Ask = std::function<void(RaySpan, std::uint8_t*)>;
 
 struct Peer {
   std::string name;
@@ -112,22 +111,10 @@ void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, boo
 // One run over all rays: processor time of this thread, or with several threads the wall time.
 double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
   if (peer.before) peer.before();
-  if (threads == 1) {
-    const double start = thread_seconds();
-    peer.run({rays.data(), rays.size()}, out);
-    return thread_seconds() - start;
-  }
-  const auto parts = static_cast<std::size_t>(threads);
-  const std::size_t block_size = std::max<std::size_t>(4096, (rays.size() + parts - 1) / parts);
   tbb::task_arena arena(threads);
-  const double start = wall_seconds();
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
-      const std::size_t begin = block * block_size;
-      peer.run({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
-    });
-  });
-  return wall_seconds() - start;
+  const double start = seconds_of(threads);
+  arena.execute([&] { ask_all(peer.run, rays, out, threads); });
+  return seconds_of(threads) - start;
 }
 
 // Whatever the peers do not agree on, exact arithmetic decides.
@@ -237,9 +224,17 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
   if (Status status = embree.build(views); !status) return status;
   for (const std::string& name : settings.phases) {
     Phase phase;
-    if (Status status = make_phase(name, scene, geometry, viewpoint, settings.light, settings.size, phase); !status)
+    const bool builds = name == "build+first";
+    if (Status status =
+            make_phase(builds ? "first" : name, scene, geometry, viewpoint, settings.light, settings.size, phase);
+        !status)
       return status;
     if (phase.rays.empty()) continue;
+    if (builds) {
+      const FirstFrameSettings first{settings.threads, settings.rounds, settings.has_embree};
+      if (Status status = measure_first_frame(geometry, phase.rays, first, rows, any_wrong); !status) return status;
+      continue;
+    }
     if (Status status = measure_phase(settings, geometry, phase, scene, embree, rows, any_wrong); !status)
       return status;
   }
@@ -275,7 +270,8 @@ std::function<ExitCode()> throughput_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--rounds", settings->rounds, "Measured runs of each peer")->check(CLI::Range(1, 1000));
   app.add_option("--light", settings->light, "Which light, counted from 0");
-  app.add_option("--phase", settings->phases, "first, next:D (a camera moved by D of the diagonal), shuffled, area")
+  app.add_option("--phase", settings->phases,
+                 "first, next:D (a camera moved by D of the diagonal), shuffled, area; build+first: see README.md")
       ->delimiter(',');
   app.add_option("--kernel", settings->kernels, "Only these kernels")->delimiter(',');
   app.add_flag_callback(

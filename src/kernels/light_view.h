@@ -3,13 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include "index/triangle_bvh.h"
 #include "index/wide_tree.h"
+#include "tree/lazy_tree.h"
 
 namespace umbrix::detail {
 
@@ -139,22 +142,33 @@ struct LightViewScratch {
   }
 };
 
-/// The wide tree, for rays that a view of the light is not for; the hierarchy that the view walks; and memory that
-/// calls borrow. Any threads.
-class LightViewTable : public WideTree {
+/// The hierarchy that the view walks; memory that calls borrow; and the wide tree, for rays that a view of the light is
+/// not for, from when they want it. Any threads.
+class LightViewTable : public SideTable {
  public:
-  /// Throws std::bad_alloc, or what the executor throws.
-  LightViewTable(const Tree& tree, const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count,
-                 const Executor* executor)
-      : WideTree(tree, triangles), bvh_(triangles, kept, kept_count, tree.scale_exponent, executor) {}
+  /// What is named must outlive it.
+  LightViewTable(const TriangleBvh& bvh, const LazyTree& tree, const Triangle* triangles)
+      : bvh_(bvh), tree_(tree), triangles_(triangles) {}
 
   const TriangleBvh& bvh() const noexcept { return bvh_; }
   std::uint64_t bytes() const noexcept override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::uint64_t held = WideTree::bytes() + bvh_.bytes();
+    std::uint64_t held = bvh_.bytes() + (wide_ ? wide_->bytes() : 0);
     for (const auto& scratch : idle_) held += scratch->bytes();
     return held;
   }
+
+  /// Builds the tree, if need be. Throws what that does.
+  void make_wide(const Executor* executor) const {
+    tree_.build(executor);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!wide_) wide_ = std::make_unique<WideTree>(tree_.tree(), triangles_);
+    wide_now_.store(wide_.get(), std::memory_order_release);
+  }
+  /// Null if there is no memory.
+  const WideTree* need_wide() const noexcept { return tree_.need() ? wide_of_built() : nullptr; }
+  /// Null if so few rays have wanted it that it does not pay yet, or if there is no memory.
+  const WideTree* earn_wide(std::size_t rays) const noexcept { return tree_.earn(rays) ? wide_of_built() : nullptr; }
 
   /// Throws std::bad_alloc.
   std::unique_ptr<LightViewScratch> borrow() const {
@@ -174,8 +188,22 @@ class LightViewTable : public WideTree {
   }
 
  private:
-  TriangleBvh bvh_;
-  mutable std::mutex mutex_;
+  const WideTree* wide_of_built() const noexcept {
+    if (const WideTree* const wide = wide_now_.load(std::memory_order_acquire)) return wide;
+    try {
+      make_wide(nullptr);
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+    return wide_now_.load(std::memory_order_acquire);
+  }
+
+  const TriangleBvh& bvh_;
+  const LazyTree& tree_;
+  const Triangle* triangles_;
+  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::unique_ptr<WideTree> wide_;
+  mutable std::atomic<const WideTree*> wide_now_{nullptr};
   mutable std::vector<std::unique_ptr<LightViewScratch>> idle_;
 };
 

@@ -10,6 +10,9 @@
 
 namespace umbrix::detail {
 
+/// The tree's box, scale and eps for triangles with these bounds; no nodes.
+Tree tree_around(const Box& bounds);
+
 /// Builds the tree over the triangles named by `kept` (non-degenerate, finite) and fills the statistics.
 /// The result depends on the triangles, their order and the quality only. Throws std::bad_alloc.
 Tree build_tree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, BuildQuality quality,

@@ -5,10 +5,10 @@
 
 namespace umbrix::detail {
 
-int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept) {
+int scale_exponent(const Box& bounds) {
   float largest = 0;
-  for (const std::uint32_t id : kept)
-    for (const Vec3& v : triangles[id].v) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  for (const Vec3& v : {bounds.lower, bounds.upper})
+    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   int exponent = 0;
   std::frexp(largest, &exponent);
   return -exponent;

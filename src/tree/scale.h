@@ -7,8 +7,8 @@
 
 namespace umbrix::detail {
 
-/// The exponent of the power of two that brings the largest coordinate of the kept triangles into [0.5, 1).
-int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept);
+/// The exponent of the power of two that brings the largest coordinate of a box that is not empty into [0.5, 1).
+int scale_exponent(const Box& bounds);
 
 /// The triangle times 2^exponent.
 Triangle scaled(const Triangle& triangle, int exponent);

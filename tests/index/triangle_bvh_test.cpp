@@ -43,6 +43,8 @@ void collect(const TriangleBvh& bvh, const std::vector<Triangle>& triangles, std
   }
 }
 
+constexpr float kEps = 0x1p-20f;
+
 Box everywhere() {
   Box box;
   box.lower = Vec3(-1e9f);
@@ -57,7 +59,7 @@ TEST(TriangleBvh, HoldsEachTriangleOnceWithinItsBoxes) {
     std::vector<std::uint32_t> kept;
     for (std::uint32_t i = 0; i < count; ++i)
       if (i % 5 != 3 || count < 5) kept.push_back(i);
-    const TriangleBvh bvh(triangles.data(), kept.data(), kept.size(), 0, nullptr);
+    const TriangleBvh bvh(triangles.data(), kept.data(), kept.size(), 0, kEps, nullptr);
     std::vector<std::uint32_t> ids;
     collect(bvh, triangles, 0, everywhere(), ids);
     std::sort(ids.begin(), ids.end());
@@ -68,7 +70,7 @@ TEST(TriangleBvh, HoldsEachTriangleOnceWithinItsBoxes) {
 TEST(TriangleBvh, TakesTrianglesThatAreAllTheSame) {
   const std::vector<Triangle> triangles(5000, random_soup(1, 1, 1)[0]);
   const SmallScene scene(triangles);
-  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
   std::vector<std::uint32_t> ids;
   collect(bvh, triangles, 0, everywhere(), ids);
   EXPECT_EQ(ids.size(), triangles.size());
@@ -81,15 +83,15 @@ TEST(TriangleBvh, DoesNotDependOnTheExecutor) {
                              for (std::size_t i = count; i > 0; --i) body(data, i - 1);
                            },
                            nullptr};
-  const TriangleBvh one(triangles.data(), scene.kept.data(), scene.kept.size(), 0, &backwards);
-  const TriangleBvh other(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  const TriangleBvh one(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, &backwards);
+  const TriangleBvh other(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
   std::vector<std::uint32_t> a, b;
   collect(one, triangles, 0, everywhere(), a);
   collect(other, triangles, 0, everywhere(), b);
   EXPECT_EQ(a, b);
 }
 
-TEST(TriangleBvh, IsEmptyWithoutTriangles) { EXPECT_TRUE(TriangleBvh(nullptr, nullptr, 0, 0, nullptr).empty()); }
+TEST(TriangleBvh, IsEmptyWithoutTriangles) { EXPECT_TRUE(TriangleBvh(nullptr, nullptr, 0, 0, kEps, nullptr).empty()); }
 
 }  // namespace
 }  // namespace umbrix::detail
