@@ -32,6 +32,7 @@ class LazyArray {
   }
 
   std::size_t size() const noexcept { return size_; }
+  T* data() const noexcept { return data_; }
   T& operator[](std::size_t i) const noexcept { return data_[i]; }
 
  private:
@@ -43,7 +44,7 @@ class LazyArray {
   void prefer_large_pages() noexcept {
 #if defined(__linux__)
     constexpr std::uintptr_t kPage = 4096;
-    constexpr std::size_t kWorthIt = std::size_t{8} << 20;
+    constexpr std::size_t kWorthIt = std::size_t{2} << 20;
     const auto begin = (reinterpret_cast<std::uintptr_t>(data_) + kPage - 1) / kPage * kPage;
     const auto end = reinterpret_cast<std::uintptr_t>(data_ + size_) / kPage * kPage;
     if (end > begin + kWorthIt) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);

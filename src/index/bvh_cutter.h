@@ -89,8 +89,7 @@ class BvhCutter {
   void cut(const BvhRange& whole, BvhRange& low, BvhRange& high) const;
 
   /// The same by all threads, with room for as many references in `scratch`. Throws what the executor throws.
-  void cut(const BvhRange& whole, BvhRange& low, BvhRange& high, BvhReference* scratch,
-           const Executor* executor) const;
+  void cut(const BvhRange& whole, BvhRange& low, BvhRange& high, BvhReference* scratch, const Executor* executor) const;
 
   /// At the middle in the order as it is, whatever that costs.
   void halve(const BvhRange& whole, BvhRange& low, BvhRange& high) const;

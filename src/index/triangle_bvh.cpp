@@ -10,6 +10,7 @@
 #include "core/parallel_for.h"
 #include "index/bvh_cutter.h"
 #include "tree/clip.h"
+#include "tree/scale.h"
 
 namespace umbrix::detail {
 namespace {
@@ -125,36 +126,57 @@ class Builder {
   const Executor* executor_;
 };
 
-void fill_rows(const Triangle* triangles, double scale, const BvhReference* references, const Part::Leaf& leaf,
+/// Triangles in the tree's units: as scaled() makes them, in float where a product is rounded once as well.
+class Scaler {
+ public:
+  explicit Scaler(int exponent)
+      : exponent_(exponent),
+        is_float_(exponent >= -126 && exponent <= 127),
+        factor_(is_float_ ? std::ldexp(1.0f, exponent) : 0) {}
+
+  Triangle operator()(const Triangle& t) const {
+    if (!is_float_) return scaled(t, exponent_);
+    return {{t.v[0] * factor_, t.v[1] * factor_, t.v[2] * factor_}};
+  }
+
+ private:
+  int exponent_;
+  bool is_float_;
+  float factor_;
+};
+
+void fill_rows(const Triangle* triangles, const Scaler& scale, const BvhReference* references, const Part::Leaf& leaf,
                TriangleRows& rows) {
   rows.count = leaf.count;
   float longest = 0;
-  for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
-    const std::uint32_t id = references[leaf.first + (lane < leaf.count ? lane : 0)].id();
+  const auto put = [&](const Triangle& t, std::uint32_t id, std::uint32_t lane) {
     rows.id[lane] = id;
-    Vec3 v[3];
-    for (int vertex = 0; vertex < 3; ++vertex) {
-      v[vertex] = Vec3(DVec3(triangles[id].v[vertex]) * scale);
-      for (int axis = 0; axis < 3; ++axis) rows.v[vertex][axis][lane] = v[vertex][axis];
-    }
-    for (const Vec3& e : {v[1] - v[0], v[2] - v[0]}) longest = std::max(longest, glm::dot(e, e));
+    for (int vertex = 0; vertex < 3; ++vertex)
+      for (int axis = 0; axis < 3; ++axis) rows.v[vertex][axis][lane] = t.v[vertex][axis];
+  };
+  for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
+    const std::uint32_t id = references[leaf.first + lane].id();
+    const Triangle t = scale(triangles[id]);
+    put(t, id, lane);
+    const Vec3 e1 = t.v[1] - t.v[0], e2 = t.v[2] - t.v[0];
+    longest = std::max(longest, std::max(glm::dot(e1, e1), glm::dot(e2, e2)));
   }
+  const std::uint32_t first = references[leaf.first].id();
+  for (std::uint32_t lane = leaf.count; lane < kRowLanes; ++lane) put(scale(triangles[first]), first, lane);
   // What squares of short edges lose to underflow is made up for.
   rows.edge_bound = std::sqrt(longest + 0x1p-120f) * (1 + 0x1p-18f);
   rows.reach = leaf.reach;
 }
 
-LazyArray<BvhReference> make_references(const Triangle* triangles, const std::uint32_t* kept, double scale,
-                                          const Executor* executor, BvhRange& whole) {
+LazyArray<BvhReference> make_references(const Triangle* triangles, const std::uint32_t* kept, const Scaler& scale,
+                                        const Executor* executor, BvhRange& whole) {
   constexpr std::size_t kChunk = BvhCutter::kChunk;
   LazyArray<BvhReference> references(whole.size());
   std::vector<BvhRange> chunks((whole.size() + kChunk - 1) / kChunk);
   parallel_for(executor, chunks.size(), [&](std::size_t chunk) {
     BvhRange all;
     for (std::size_t i = chunk * kChunk; i < std::min(whole.size(), (chunk + 1) * kChunk); ++i) {
-      Triangle t = triangles[kept[i]];
-      for (Vec3& v : t.v) v = Vec3(DVec3(v) * scale);
-      references[i] = BvhReference(t, kept[i]);
+      references[i] = BvhReference(scale(triangles[kept[i]]), kept[i]);
       all.bounds.extend(references[i].bounds);
       all.add_middle(references[i].middle());
     }
@@ -169,7 +191,7 @@ LazyArray<BvhReference> make_references(const Triangle* triangles, const std::ui
 TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent,
                          float eps, const Executor* executor) {
   if (kept_count == 0) return;
-  const double scale = std::ldexp(1.0, exponent);
+  const Scaler scale(exponent);
   BvhRange whole;
   whole.last = kept_count;
   const LazyArray<BvhReference> references = make_references(triangles, kept, scale, executor, whole);
@@ -193,8 +215,7 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
   for (std::size_t i = 0; i < parts.size(); ++i)
     first[i + 1] = {first[i].node + static_cast<std::uint32_t>(parts[i].nodes.size()),
                     first[i].row + static_cast<std::uint32_t>(parts[i].leaves.size())};
-  for (std::size_t i = 0; i < below.size(); ++i)
-    parts[0].nodes[below[i].node].child[below[i].lane] = first[1 + i].node;
+  for (std::size_t i = 0; i < below.size(); ++i) parts[0].nodes[below[i].node].child[below[i].lane] = first[1 + i].node;
   nodes_ = LazyArray<BvhNode>(first.back().node);
   rows_ = LazyArray<TriangleRows>(first.back().row);
   parallel_for(executor, parts.size(), [&](std::size_t i) {

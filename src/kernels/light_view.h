@@ -10,6 +10,8 @@
 #include <new>
 #include <vector>
 
+#include "core/chunked_array.h"
+#include "core/lazy_array.h"
 #include "index/triangle_bvh.h"
 #include "index/wide_tree.h"
 #include "tree/lazy_tree.h"
@@ -102,8 +104,8 @@ struct LightViewScratch {
     std::uint64_t nodes = 0, leaves = 0;
   };
 
-  std::vector<float> u, v, w;      ///< of rays, in the order of groups once there are groups
-  std::vector<std::int32_t> name;  ///< their places in the caller's order
+  LazyArray<float> u, v, w;      ///< of rays, in the order of groups once there are groups
+  LazyArray<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
   std::vector<Record> records;        ///< for sorting
@@ -112,7 +114,7 @@ struct LightViewScratch {
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
-  std::vector<LightTriangles> triangles;
+  ChunkedArray<LightTriangles, 64> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
@@ -120,11 +122,11 @@ struct LightViewScratch {
 
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
-    if (u.size() < room) {
-      u.resize(room);
-      v.resize(room);
-      w.resize(room);
-      name.resize(room);
+    if (name.size() < room) {  // the last one made
+      u = LazyArray<float>(room);
+      v = LazyArray<float>(room);
+      w = LazyArray<float>(room);
+      name = LazyArray<std::int32_t>(room);
     }
     ray_count = 0;
     odd.clear();
@@ -132,7 +134,7 @@ struct LightViewScratch {
     for (FaceGroups& face : faces) face.groups.clear();
   }
   std::uint64_t bytes() const noexcept {
-    const std::uint64_t rays = 4 * u.capacity() * sizeof(float) + records.capacity() * sizeof(Record);
+    const std::uint64_t rays = 4 * u.size() * sizeof(float) + records.capacity() * sizeof(Record);
     return rays + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
   }
   std::size_t group_count() const noexcept {
