@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/float_mode.h"
 #include "core/parallel_for.h"
 #include "index/bvh_cutter.h"
 #include "tree/clip.h"
@@ -174,6 +175,7 @@ LazyArray<BvhReference> make_references(const Triangle* triangles, const std::ui
   LazyArray<BvhReference> references(whole.size());
   std::vector<BvhRange> chunks((whole.size() + kChunk - 1) / kChunk);
   parallel_for(executor, chunks.size(), [&](std::size_t chunk) {
+    const DefaultFloatMode mode;
     BvhRange all;
     for (std::size_t i = chunk * kChunk; i < std::min(whole.size(), (chunk + 1) * kChunk); ++i) {
       references[i] = BvhReference(scale(triangles[kept[i]]), kept[i]);
@@ -191,6 +193,7 @@ LazyArray<BvhReference> make_references(const Triangle* triangles, const std::ui
 TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent,
                          float eps, const Executor* executor) {
   if (kept_count == 0) return;
+  const DefaultFloatMode mode;
   const Scaler scale(exponent);
   BvhRange whole;
   whole.last = kept_count;
@@ -203,6 +206,7 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
     builder.build({0, 0, 0, whole}, std::max<std::size_t>(1u << 12, kept_count / 32), parts[0], below);
     parts.resize(1 + below.size());
     parallel_for(executor, below.size(), [&](std::size_t i) {
+      const DefaultFloatMode body_mode;
       std::vector<Pending> none;
       builder.build(below[i], 0, parts[1 + i], none);
     });
@@ -219,6 +223,7 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
   nodes_ = LazyArray<BvhNode>(first.back().node);
   rows_ = LazyArray<TriangleRows>(first.back().row);
   parallel_for(executor, parts.size(), [&](std::size_t i) {
+    const DefaultFloatMode body_mode;
     const Part& part = parts[i];
     std::copy(part.nodes.begin(), part.nodes.end(), &nodes_[first[i].node]);
     for (std::size_t n = 0; n < part.nodes.size() && i > 0; ++n)

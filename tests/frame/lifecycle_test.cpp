@@ -289,6 +289,7 @@ TEST_F(FrameLife, ExecutorThatThrowsIsToldOf) {
   EXPECT_EQ(tracer.begin_frame().code(), StatusCode::invalid_argument);
 
   options.method = FrameMethod::indexed;
+  ASSERT_TRUE(hall_.scene.prepare({}).ok()) << "the tree, which start would build by the same executor";
   ASSERT_TRUE(tracer.start(hall_.scene, options).ok());
   run(tracer, view(0));
   EXPECT_EQ(tracer.begin_frame(view(1)).code(), StatusCode::internal);
