@@ -164,8 +164,8 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
 void Scene::Impl::make_view() {
   bool all_plain = true;
   for (const detail::MeshRecord& m : meshes) all_plain &= m.mask != 0 && !m.opacity.opaque;
-  view = {&tree->tree(),   triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(),
-          meshes.size(), all_plain,        nullptr,     &*tree,      &bvh};
+  view = {&tree->tree(), triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(),
+          all_plain,     nullptr,          &*tree,      &bvh};
 }
 
 void Scene::Impl::build(const BuildOptions& options) {
@@ -269,8 +269,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
   if (!impl_ || !impl_->committed)
     occluded(rays, out, options);
   else
-    impl_->entry_points(options.kernel)
-        .occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    impl_->entry_points(options.kernel).occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -289,8 +288,7 @@ void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOption
   if (!impl_ || !impl_->committed)
     closest(rays, out, options);
   else
-    impl_->entry_points(options.kernel)
-        .closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    impl_->entry_points(options.kernel).closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {

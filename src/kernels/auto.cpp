@@ -70,9 +70,7 @@ struct AutoKernel {
     return scene.side && LightTrace<Counts>(scene, table(scene)).trace(rays);
   }
 
-  static const LightViewTable& table(const SceneView& scene) {
-    return *static_cast<const LightViewTable*>(scene.side);
-  }
+  static const LightViewTable& table(const SceneView& scene) { return *static_cast<const LightViewTable*>(scene.side); }
 
   static const WideTree* earn_wide(const SceneView& scene, std::size_t rays) {
     return scene.side ? table(scene).earn_wide(rays) : nullptr;

@@ -22,6 +22,6 @@ const EntryPoints& bvh() { return entry_points<BvhKernel>(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-UMBRIX_DEFINE_TREELESS_KERNEL(kBvhKernel, bvh, "bvh", "one ray in the hierarchy of boxes, near boxes first: needs no tree",
-                              nullptr)
+UMBRIX_DEFINE_TREELESS_KERNEL(kBvhKernel, bvh, "bvh",
+                              "one ray in the hierarchy of boxes, near boxes first: needs no tree", nullptr)
 #endif

@@ -95,7 +95,8 @@ struct BvhKernel {
       return false;
     }
     WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far)) return far_occluded(scene, filter, ray, counts);
+    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
+      return far_occluded(scene, filter, ray, counts);
     const Interval at = clip_to_root(walk_ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
     const LeafTest test(walk_ray);

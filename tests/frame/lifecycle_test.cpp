@@ -289,7 +289,9 @@ TEST_F(FrameLife, ExecutorThatThrowsIsToldOf) {
   EXPECT_EQ(tracer.begin_frame().code(), StatusCode::invalid_argument);
 
   options.method = FrameMethod::indexed;
-  ASSERT_TRUE(hall_.scene.prepare({}).ok()) << "the tree, which start would build by the same executor";
+  FrameOptions good;
+  good.method = FrameMethod::linked;
+  ASSERT_TRUE(tracer.start(hall_.scene, good).ok()) << "builds the tree, if no one has";
   ASSERT_TRUE(tracer.start(hall_.scene, options).ok());
   run(tracer, view(0));
   EXPECT_EQ(tracer.begin_frame(view(1)).code(), StatusCode::internal);

@@ -76,6 +76,29 @@ TEST(TriangleBvh, TakesTrianglesThatAreAllTheSame) {
   EXPECT_EQ(ids.size(), triangles.size());
 }
 
+/// Nodes above the deepest leaf.
+std::uint32_t depth_below(const TriangleBvh& bvh, std::uint32_t index) {
+  std::uint32_t depth = 0;
+  for (const std::uint32_t child : bvh.node(index).child)
+    if ((child & BvhNode::kLeaf) == 0) depth = std::max(depth, depth_below(bvh, child));
+  return depth + 1;
+}
+
+// Each is half of the one before: every cut that pays takes off the largest alone.
+TEST(TriangleBvh, HasADeepestLeaf) {
+  std::vector<Triangle> triangles;
+  float size = 0.5f;
+  for (int i = 0; i < 120; ++i, size *= 0.5f)
+    for (int copy = 0; copy < 20; ++copy)
+      triangles.push_back({{Vec3(size, size, size), Vec3(size, 2 * size, size), Vec3(2 * size, size, size)}});
+  const SmallScene scene(triangles);
+  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
+  EXPECT_LE(depth_below(bvh, 0), kMaxBvhDepth);
+  std::vector<std::uint32_t> ids;
+  collect(bvh, triangles, 0, everywhere(), ids);
+  EXPECT_EQ(ids.size(), triangles.size());
+}
+
 TEST(TriangleBvh, DoesNotDependOnTheExecutor) {
   const std::vector<Triangle> triangles = random_soup(30000, 0.05f, 3);
   const SmallScene scene(triangles);
