@@ -10,6 +10,7 @@
 
 #include "core/exact_test.h"
 #include "core/float_mode.h"
+#include "core/growing_array.h"
 #include "core/parallel_for.h"
 #include "kernels/kernel.h"
 #include "tree/lazy_tree.h"
@@ -22,9 +23,9 @@ extern const Kernel kBvhKernel;
 
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) Scene::Impl {
-  std::vector<detail::Triangle> triangles;
-  std::vector<std::uint32_t> mesh_of;
-  std::vector<std::uint32_t> kept;
+  detail::GrowingArray<detail::Triangle> triangles;
+  detail::GrowingArray<std::uint32_t> mesh_of;
+  detail::GrowingArray<std::uint32_t> kept;
   std::vector<detail::MeshRecord> meshes;
   detail::Box bounds;
   detail::TriangleBvh bvh;
@@ -94,12 +95,6 @@ detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
   return {p[0], p[1], p[2]};
 }
 
-/// Reserves for `count` more, growing geometrically: scenes may have many small meshes.
-template <class T>
-void make_room(std::vector<T>& v, std::size_t count) {
-  if (v.capacity() - v.size() < count) v.reserve(std::max(v.size() + count, 2 * v.capacity()));
-}
-
 bool is_finite(const detail::Triangle& triangle) noexcept {
   for (const detail::Vec3& v : triangle.v)
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
@@ -137,16 +132,16 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
                                                     std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
 
     // Ask for all memory first: nothing after it can fail half-way.
-    make_room(s.triangles, mesh.triangle_count);
-    make_room(s.kept, mesh.triangle_count);
-    make_room(s.mesh_of, mesh.triangle_count);
-    make_room(s.meshes, 1);
+    s.triangles.make_room(mesh.triangle_count);
+    s.kept.make_room(mesh.triangle_count);
+    s.mesh_of.make_room(mesh.triangle_count);
+    s.meshes.push_back({static_cast<std::uint32_t>(s.triangles.size()), static_cast<std::uint32_t>(mesh.triangle_count),
+                        mesh.mask, mesh.opacity});
 
     const detail::DefaultFloatMode mode;
     const auto first = static_cast<std::uint32_t>(s.triangles.size());
-    const auto number = static_cast<std::uint32_t>(s.meshes.size());
-    s.mesh_of.resize(first + mesh.triangle_count, number);
-    s.meshes.push_back({first, static_cast<std::uint32_t>(mesh.triangle_count), mesh.mask, mesh.opacity});
+    const auto number = static_cast<std::uint32_t>(s.meshes.size() - 1);
+    s.mesh_of.append(mesh.triangle_count, number);
     for (std::size_t i = 0; i < mesh.triangle_count; ++i) {
       const Corners corners(mesh, i);
       s.triangles.push_back(
@@ -170,8 +165,6 @@ void Scene::Impl::make_view() {
 
 void Scene::Impl::build(const BuildOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  triangles.shrink_to_fit();
-  kept.shrink_to_fit();
   tree.emplace(triangles, kept, bounds, options.quality);
   const detail::Tree& around = tree->tree();
   bvh = detail::TriangleBvh(triangles.data(), kept.data(), kept.size(), around.scale_exponent, around.eps,

@@ -155,7 +155,7 @@ class LightViewTable : public SideTable {
   const TriangleBvh& bvh() const noexcept { return bvh_; }
   std::uint64_t bytes() const noexcept override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::uint64_t held = bvh_.bytes() + (wide_ ? wide_->bytes() : 0);
+    std::uint64_t held = wide_ ? wide_->bytes() : 0;
     for (const auto& scratch : idle_) held += scratch->bytes();
     return held;
   }

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, const Tree& tree) {
+Cell root_cell(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, const Tree& tree) {
   Cell cell;
   cell.box = tree.root;
   cell.references.reserve(kept.size());
@@ -29,7 +29,7 @@ Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::ui
   return cell;
 }
 
-SplitOptions split_options(const std::vector<Triangle>& triangles, std::size_t count, BuildQuality quality,
+SplitOptions split_options(ArrayView<Triangle> triangles, std::size_t count, BuildQuality quality,
                            const Executor* executor, const Tree& tree) {
   SplitOptions options;
   const bool high = quality == BuildQuality::high;
@@ -59,7 +59,7 @@ Tree tree_around(const Box& bounds) {
   return tree;
 }
 
-Tree build_tree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, BuildQuality quality,
+Tree build_tree(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, BuildQuality quality,
                 const Executor* executor, BuildStats& stats) {
   const DefaultFloatMode mode;
   const auto prepare_start = Clock::now();

@@ -17,7 +17,7 @@ constexpr std::uint64_t kRaysPerTriangle = 8;
 
 }  // namespace
 
-LazyTree::LazyTree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, const Box& bounds,
+LazyTree::LazyTree(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, const Box& bounds,
                    BuildQuality quality)
     : triangles_(triangles), kept_(kept), quality_(quality), tree_(tree_around(bounds)) {}
 

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <vector>
 
+#include "core/array_view.h"
 #include "tree/tree.h"
 #include "umbrix/executor.h"
 #include "umbrix/scene.h"
@@ -16,8 +17,7 @@ namespace umbrix::detail {
 /// Any threads: what was made is never changed.
 class LazyTree {
  public:
-  LazyTree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, const Box& bounds,
-           BuildQuality quality);
+  LazyTree(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, const Box& bounds, BuildQuality quality);
 
   const Tree& tree() const noexcept { return tree_; }
   bool is_built() const noexcept { return state_.load(std::memory_order_acquire) == State::built; }
@@ -42,8 +42,8 @@ class LazyTree {
   void build_locked(const Executor* executor) const;
   bool try_build_locked() const noexcept;
 
-  const std::vector<Triangle>& triangles_;
-  const std::vector<std::uint32_t>& kept_;
+  ArrayView<Triangle> triangles_;
+  ArrayView<std::uint32_t> kept_;
   BuildQuality quality_;
   mutable Tree tree_;
   BuildStats stats_;

@@ -21,8 +21,8 @@ Triangle scaled(const Triangle& triangle, int exponent) {
   return result;
 }
 
-std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
-  std::vector<Triangle> result(triangles);
+std::vector<Triangle> scaled(ArrayView<Triangle> triangles, int exponent) {
+  std::vector<Triangle> result(triangles.begin(), triangles.end());
   for (Triangle& t : result) t = scaled(t, exponent);
   return result;
 }

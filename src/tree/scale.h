@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/array_view.h"
 #include "core/math.h"
 
 namespace umbrix::detail {
@@ -14,6 +15,6 @@ int scale_exponent(const Box& bounds);
 Triangle scaled(const Triangle& triangle, int exponent);
 
 /// All triangles times 2^exponent: exact, but for coordinates 2^126 times smaller than the largest.
-std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent);
+std::vector<Triangle> scaled(ArrayView<Triangle> triangles, int exponent);
 
 }  // namespace umbrix::detail
