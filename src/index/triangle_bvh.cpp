@@ -41,7 +41,10 @@ struct Part {
 class Builder {
  public:
   Builder(BvhReference* references, std::size_t count, float eps, const Executor* executor)
-      : cutter_(references), scratch_(count > BvhCutter::kChunk ? count : 0), eps_(eps), executor_(executor) {}
+      : cutter_(references),
+        scratch_(count > BvhCutter::kChunk ? count : 0, Fill::nothing),
+        eps_(eps),
+        executor_(executor) {}
 
   /// All below a range; what is not larger than `most` is left to others.
   void build(const Pending& root, std::size_t most, Part& out, std::vector<Pending>& left) {
@@ -172,7 +175,7 @@ void fill_rows(const Triangle* triangles, const Scaler& scale, const BvhReferenc
 LazyArray<BvhReference> make_references(const Triangle* triangles, const std::uint32_t* kept, const Scaler& scale,
                                         const Executor* executor, BvhRange& whole) {
   constexpr std::size_t kChunk = BvhCutter::kChunk;
-  LazyArray<BvhReference> references(whole.size());
+  LazyArray<BvhReference> references(whole.size(), Fill::nothing);
   std::vector<BvhRange> chunks((whole.size() + kChunk - 1) / kChunk);
   parallel_for(executor, chunks.size(), [&](std::size_t chunk) {
     const DefaultFloatMode mode;
@@ -220,8 +223,8 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
     first[i + 1] = {first[i].node + static_cast<std::uint32_t>(parts[i].nodes.size()),
                     first[i].row + static_cast<std::uint32_t>(parts[i].leaves.size())};
   for (std::size_t i = 0; i < below.size(); ++i) parts[0].nodes[below[i].node].child[below[i].lane] = first[1 + i].node;
-  nodes_ = LazyArray<BvhNode>(first.back().node);
-  rows_ = LazyArray<TriangleRows>(first.back().row);
+  nodes_ = LazyArray<BvhNode>(first.back().node, Fill::nothing);
+  rows_ = LazyArray<TriangleRows>(first.back().row, Fill::nothing);
   parallel_for(executor, parts.size(), [&](std::size_t i) {
     const DefaultFloatMode body_mode;
     const Part& part = parts[i];

@@ -123,10 +123,10 @@ struct LightViewScratch {
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
     if (name.size() < room) {  // the last one made
-      u = LazyArray<float>(room);
-      v = LazyArray<float>(room);
-      w = LazyArray<float>(room);
-      name = LazyArray<std::int32_t>(room);
+      u = LazyArray<float>(room, Fill::nothing);
+      v = LazyArray<float>(room, Fill::nothing);
+      w = LazyArray<float>(room, Fill::nothing);
+      name = LazyArray<std::int32_t>(room, Fill::nothing);
     }
     ray_count = 0;
     odd.clear();
