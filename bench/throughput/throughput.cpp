@@ -120,6 +120,7 @@ double time_once(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* o
 // Whatever the peers do not agree on, exact arithmetic decides.
 void judge(const workload::Geometry& geometry, const std::vector<Ray>& rays, std::vector<Peer>& peers) {
   std::vector<const std::vector<std::uint8_t>*> answers;
+  answers.reserve(peers.size());
   for (const Peer& peer : peers) answers.push_back(&peer.answers);
   const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, rays, answers);
   for (std::size_t i = 0; i < peers.size(); ++i) peers[i].wrong = wrong[i];
