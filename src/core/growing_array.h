@@ -20,7 +20,7 @@ class GrowingArray {
   /// Makes room for `count` more, growing geometrically. Throws std::bad_alloc.
   void make_room(std::size_t count) {
     if (capacity_ - size_ >= count) return;
-    const std::size_t capacity = std::max(size_ + count, 2 * capacity_);
+    const std::size_t capacity = std::max(size_ + count, (capacity_ < kFast ? 4 : 2) * capacity_);
     void* const grown = std::realloc(data_.get(), capacity * sizeof(T));
     if (!grown) throw std::bad_alloc();
     (void)data_.release();  // freed, or the same
@@ -44,6 +44,8 @@ class GrowingArray {
   struct Free {
     void operator()(T* p) const noexcept { std::free(p); }
   };
+
+  static constexpr std::size_t kFast = (std::size_t{16} << 20) / sizeof(T);
 
   std::unique_ptr<T, Free> data_;
   std::size_t size_ = 0, capacity_ = 0;

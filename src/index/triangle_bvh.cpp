@@ -20,6 +20,9 @@ namespace {
 constexpr std::uint32_t kMostCutDepth = 36;
 static_assert(kMaxBvhDepth > kMostCutDepth + 27, "2^29 triangles");
 
+/// Threads that wait for each other at every cut lose more than threads that have nothing left to do.
+constexpr std::size_t kSmallestPart = 2 * BvhCutter::kChunk;
+
 bool is_leaf(const BvhRange& range) { return range.size() <= kRowLanes; }
 
 /// A child that is to be made.
@@ -116,7 +119,7 @@ class Builder {
       const BvhRange whole = parts[widest];
       if (depth >= kMostCutDepth)
         cutter_.halve(whole, parts[widest], parts[count]);
-      else if (most > 0 && whole.size() > BvhCutter::kChunk)
+      else if (most > 0 && whole.size() > most)
         cutter_.cut(whole, parts[widest], parts[count], &scratch_[0], executor_);
       else
         cutter_.cut(whole, parts[widest], parts[count]);
@@ -206,7 +209,7 @@ TriangleBvh::TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, s
   std::vector<Pending> below;
   {
     Builder builder(&references[0], kept_count, eps, executor);
-    builder.build({0, 0, 0, whole}, std::max<std::size_t>(1u << 12, kept_count / 32), parts[0], below);
+    builder.build({0, 0, 0, whole}, std::max(kSmallestPart, kept_count / 32), parts[0], below);
     parts.resize(1 + below.size());
     parallel_for(executor, below.size(), [&](std::size_t i) {
       const DefaultFloatMode body_mode;
