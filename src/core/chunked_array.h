@@ -2,27 +2,43 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <vector>
+
+#include "core/large_pages.h"
 
 namespace umbrix::detail {
 
 /// Elements of no value at first, whose number grows and which never move: growing touches none of them.
-template <class T, std::size_t kChunk>
+template <class T>
 class ChunkedArray {
-  static_assert(std::is_trivial_v<T> && (kChunk & (kChunk - 1)) == 0);
+  static_assert(std::is_trivial_v<T>);
 
  public:
   /// Room for at least so many. Throws std::bad_alloc.
   void grow(std::size_t size) {
-    while (chunks_.size() * kChunk < size) chunks_.emplace_back(new T[kChunk]);
+    while (capacity() < size) {
+      chunks_.reserve(chunks_.size() + 1);
+      T* const chunk = static_cast<T*>(std::aligned_alloc(kLargePage, kBytes));
+      if (!chunk) throw std::bad_alloc();
+      prefer_large_pages(chunk, kBytes);
+      chunks_.emplace_back(chunk);
+    }
   }
   std::size_t capacity() const noexcept { return chunks_.size() * kChunk; }
-  T& operator[](std::size_t i) noexcept { return chunks_[i / kChunk][i % kChunk]; }
+  T& operator[](std::size_t i) noexcept { return chunks_[i / kChunk].get()[i % kChunk]; }
 
  private:
-  std::vector<std::unique_ptr<T[]>> chunks_;
+  static constexpr std::size_t kChunk = 4096;
+  static constexpr std::size_t kBytes = (kChunk * sizeof(T) + kLargePage - 1) / kLargePage * kLargePage;
+
+  struct Free {
+    void operator()(T* p) const noexcept { std::free(p); }
+  };
+  std::vector<std::unique_ptr<T, Free>> chunks_;
 };
 
 }  // namespace umbrix::detail

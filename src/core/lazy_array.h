@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
+
+#include "core/large_pages.h"
 
 namespace umbrix::detail {
 
@@ -31,7 +29,7 @@ class LazyArray {
     if (!memory_ && size > 0) throw std::bad_alloc();
     const auto address = reinterpret_cast<std::uintptr_t>(memory_.get());
     data_ = reinterpret_cast<T*>((address + alignof(T) - 1) / alignof(T) * alignof(T));
-    prefer_large_pages();
+    prefer_large_pages(data_, size * sizeof(T));
   }
 
   std::size_t size() const noexcept { return size_; }
@@ -42,17 +40,6 @@ class LazyArray {
   struct Free {
     void operator()(void* p) const noexcept { std::free(p); }
   };
-
-  /// What is used in no order wants few pages to look up. A wish only: nothing depends on it.
-  void prefer_large_pages() noexcept {
-#if defined(__linux__)
-    constexpr std::uintptr_t kPage = 4096;
-    constexpr std::size_t kWorthIt = std::size_t{2} << 20;
-    const auto begin = (reinterpret_cast<std::uintptr_t>(data_) + kPage - 1) / kPage * kPage;
-    const auto end = reinterpret_cast<std::uintptr_t>(data_ + size_) / kPage * kPage;
-    if (end > begin + kWorthIt) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
-  }
 
   std::unique_ptr<void, Free> memory_;
   T* data_ = nullptr;

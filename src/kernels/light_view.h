@@ -85,6 +85,17 @@ struct Meeting {
 
 /// Memory of one call, used again by the next.
 struct LightViewScratch {
+  /// One value of each ray, in memory that all share: large pages serve one large piece better than four.
+  template <class T>
+  struct Column {
+    T* begin = nullptr;
+
+    T* data() const noexcept { return begin; }
+    T& operator[](std::size_t i) const noexcept { return begin[i]; }
+  };
+  struct RayColumns {
+    float values[4];
+  };
   struct FaceGroups {
     std::vector<RayGroup> groups;
     std::vector<ViewRows> rows;
@@ -104,8 +115,9 @@ struct LightViewScratch {
     std::uint64_t nodes = 0, leaves = 0;
   };
 
-  LazyArray<float> u, v, w;      ///< of rays, in the order of groups once there are groups
-  LazyArray<std::int32_t> name;  ///< their places in the caller's order
+  LazyArray<RayColumns> columns;
+  Column<float> u, v, w;      ///< of rays, in the order of groups once there are groups
+  Column<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
   std::vector<Record> records;        ///< for sorting
@@ -114,7 +126,7 @@ struct LightViewScratch {
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
-  ChunkedArray<LightTriangles, 64> triangles;
+  ChunkedArray<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
@@ -122,11 +134,13 @@ struct LightViewScratch {
 
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
-    if (name.size() < room) {  // the last one made
-      u = LazyArray<float>(room, Fill::nothing);
-      v = LazyArray<float>(room, Fill::nothing);
-      w = LazyArray<float>(room, Fill::nothing);
-      name = LazyArray<std::int32_t>(room, Fill::nothing);
+    if (columns.size() < room) {
+      columns = LazyArray<RayColumns>();
+      columns = LazyArray<RayColumns>(room, Fill::nothing);
+      u = {columns.data()->values};
+      v = {u.begin + room};
+      w = {v.begin + room};
+      name = {reinterpret_cast<std::int32_t*>(w.begin + room)};
     }
     ray_count = 0;
     odd.clear();
@@ -134,7 +148,7 @@ struct LightViewScratch {
     for (FaceGroups& face : faces) face.groups.clear();
   }
   std::uint64_t bytes() const noexcept {
-    const std::uint64_t rays = 4 * u.size() * sizeof(float) + records.capacity() * sizeof(Record);
+    const std::uint64_t rays = columns.size() * sizeof(RayColumns) + records.capacity() * sizeof(Record);
     return rays + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
   }
   std::size_t group_count() const noexcept {
