@@ -34,9 +34,7 @@ struct Builder {
   BuildStats stats = {};  // Umbrix only
 };
 
-Status build_umbrix(const std::vector<MeshView>& views, BuildQuality quality, Builder& builder) {
-  BuildOptions options;
-  options.quality = quality;
+Status build_umbrix(const std::vector<MeshView>& views, const BuildOptions& options, Builder& builder) {
   Scene scene;
   const double start = wall_seconds();
   if (Status status = workload::build_scene(views, options, scene); !status) return status;
@@ -57,10 +55,15 @@ Status build_embree(const std::vector<MeshView>& views, const embree::Options& o
 
 std::vector<Builder> builders(const std::vector<MeshView>& views, int threads) {
   std::vector<Builder> result;
-  for (const auto& [name, quality] : {std::pair{"high", BuildQuality::high}, std::pair{"fast", BuildQuality::fast}}) {
-    result.push_back({std::string("umbrix:") + name,
-                      [&views, quality = quality](Builder& b) { return build_umbrix(views, quality, b); }});
-  }
+  const auto add = [&](const char* name, BuildQuality quality, TreeBuild tree) {
+    BuildOptions options;
+    options.quality = quality;
+    options.tree = tree;
+    result.push_back({name, [&views, options](Builder& b) { return build_umbrix(views, options, b); }});
+  };
+  add("umbrix:boxes", BuildQuality::high, TreeBuild::on_demand);
+  add("umbrix:high", BuildQuality::high, TreeBuild::at_commit);
+  add("umbrix:fast", BuildQuality::fast, TreeBuild::at_commit);
   for (const auto& [name, quality] :
        {std::pair{"high", embree::Quality::high}, std::pair{"medium", embree::Quality::medium}}) {
     for (const bool robust : {true, false}) {
@@ -83,6 +86,7 @@ nlohmann::json to_json(const BuildStats& s) {
           {"node_bytes", s.node_bytes},
           {"leaf_bytes", s.leaf_bytes},
           {"triangle_bytes", s.triangle_bytes},
+          {"box_bytes", s.box_bytes},
           {"seconds_prepare", s.seconds_prepare},
           {"seconds_tree", s.seconds_tree},
           {"seconds_leaves", s.seconds_leaves}};

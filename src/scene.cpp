@@ -5,24 +5,31 @@
 #include <chrono>
 #include <cmath>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include "core/exact_test.h"
 #include "core/float_mode.h"
+#include "core/growing_array.h"
 #include "core/parallel_for.h"
 #include "kernels/kernel.h"
-#include "tree/builder.h"
+#include "tree/lazy_tree.h"
 
 namespace umbrix {
 
+namespace detail {
+extern const Kernel kBvhKernel;
+}
+
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) Scene::Impl {
-  std::vector<detail::Triangle> triangles;
-  std::vector<std::uint32_t> mesh_of;
-  std::vector<std::uint32_t> kept;
+  detail::GrowingArray<detail::Triangle> triangles;
+  detail::GrowingArray<std::uint32_t> mesh_of;
+  detail::GrowingArray<std::uint32_t> kept;
   std::vector<detail::MeshRecord> meshes;
-  detail::Tree tree;
   detail::Box bounds;
+  detail::TriangleBvh bvh;
+  std::optional<detail::LazyTree> tree;  ///< from commit on
   BuildStats stats;
   detail::SceneView view{};
   std::vector<std::shared_ptr<const detail::SideTable>> side_tables;  ///< by the kernel's place in the table
@@ -30,6 +37,15 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
 
   void keep_or_drop(const detail::Triangle& triangle, std::uint32_t id);
   void make_view();
+
+  void build(const BuildOptions& options);
+  void make_side_table(KernelId kernel, const Training& training);
+
+  /// A kernel's queries, or if it needs a tree for which there is no memory, those that need none.
+  const detail::EntryPoints& entry_points(KernelId kernel) const noexcept {
+    const detail::Kernel& wanted = detail::kernel_at(kernel);
+    return (wanted.needs_tree && !tree->need() ? detail::kBvhKernel : wanted).entry_points();
+  }
 
   /// The scene as the kernel sees it, with its side table.
   detail::SceneView view_for(KernelId kernel) const noexcept {
@@ -79,12 +95,6 @@ detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
   return {p[0], p[1], p[2]};
 }
 
-/// Reserves for `count` more, growing geometrically: scenes may have many small meshes.
-template <class T>
-void make_room(std::vector<T>& v, std::size_t count) {
-  if (v.capacity() - v.size() < count) v.reserve(std::max(v.size() + count, 2 * v.capacity()));
-}
-
 bool is_finite(const detail::Triangle& triangle) noexcept {
   for (const detail::Vec3& v : triangle.v)
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
@@ -122,16 +132,16 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
                                                     std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
 
     // Ask for all memory first: nothing after it can fail half-way.
-    make_room(s.triangles, mesh.triangle_count);
-    make_room(s.kept, mesh.triangle_count);
-    make_room(s.mesh_of, mesh.triangle_count);
-    make_room(s.meshes, 1);
+    s.triangles.make_room(mesh.triangle_count);
+    s.kept.make_room(mesh.triangle_count);
+    s.mesh_of.make_room(mesh.triangle_count);
+    s.meshes.push_back({static_cast<std::uint32_t>(s.triangles.size()), static_cast<std::uint32_t>(mesh.triangle_count),
+                        mesh.mask, mesh.opacity});
 
     const detail::DefaultFloatMode mode;
     const auto first = static_cast<std::uint32_t>(s.triangles.size());
-    const auto number = static_cast<std::uint32_t>(s.meshes.size());
-    s.mesh_of.resize(first + mesh.triangle_count, number);
-    s.meshes.push_back({first, static_cast<std::uint32_t>(mesh.triangle_count), mesh.mask, mesh.opacity});
+    const auto number = static_cast<std::uint32_t>(s.meshes.size() - 1);
+    s.mesh_of.append(mesh.triangle_count, number);
     for (std::size_t i = 0; i < mesh.triangle_count; ++i) {
       const Corners corners(mesh, i);
       s.triangles.push_back(
@@ -149,7 +159,31 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
 void Scene::Impl::make_view() {
   bool all_plain = true;
   for (const detail::MeshRecord& m : meshes) all_plain &= m.mask != 0 && !m.opacity.opaque;
-  view = {&tree, triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(), all_plain};
+  view = {&tree->tree(), triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(),
+          all_plain,     nullptr,          &*tree,      &bvh};
+}
+
+void Scene::Impl::build(const BuildOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  tree.emplace(triangles, kept, bounds, options.quality);
+  const detail::Tree& around = tree->tree();
+  bvh = detail::TriangleBvh(triangles.data(), kept.data(), kept.size(), around.scale_exponent, around.eps,
+                            options.executor);
+  stats.triangle_bytes = triangles.size() * sizeof(detail::Triangle);
+  stats.box_bytes = bvh.bytes();
+  stats.bytes = stats.triangle_bytes + stats.box_bytes + (kept.size() + mesh_of.size()) * sizeof(std::uint32_t) +
+                meshes.size() * sizeof(detail::MeshRecord);
+  stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  tree->set_stats(stats);
+  if (options.tree == TreeBuild::at_commit) tree->build(options.executor);
+  make_view();
+}
+
+void Scene::Impl::make_side_table(KernelId kernel, const Training& training) {
+  side_tables.resize(detail::kernel_table_size());
+  std::shared_ptr<const detail::SideTable>& slot = side_tables[detail::kernel_place(kernel)];
+  slot.reset();
+  slot = detail::kernel_at(kernel).prepare({view, training});
 }
 
 const detail::SceneView* detail::SceneAccess::view(const Scene& scene) noexcept {
@@ -167,25 +201,18 @@ Status Scene::commit(const BuildOptions& options) {
     if (!impl_) impl_ = std::make_unique<Impl>();
     Impl& s = *impl_;
     if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
-    const auto start = std::chrono::steady_clock::now();
-    s.triangles.shrink_to_fit();
-    s.kept.shrink_to_fit();
-    s.tree = detail::build_tree(s.triangles, s.kept, options.quality, options.executor, s.stats);
-    s.stats.triangle_bytes = s.triangles.size() * sizeof(detail::Triangle);
-    s.stats.bytes = s.stats.node_bytes + s.stats.leaf_bytes + s.stats.triangle_bytes +
-                    (s.kept.size() + s.mesh_of.size()) * sizeof(std::uint32_t) +
-                    s.meshes.size() * sizeof(detail::MeshRecord);
-    s.stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    s.make_view();
+    s.build(options);
     s.committed = true;
-    // The default kernel needs little and grows as rays want it; without it, it walks as "standard" does.
-    Training training;
-    training.executor = options.executor;
-    if (const Status prepared = prepare(KernelId{}, training); !prepared) s.side_tables.clear();
+    // Without its table, the default kernel answers each ray by itself.
+    try {
+      s.make_side_table(KernelId{}, {});
+    } catch (const std::bad_alloc&) {
+      s.side_tables.clear();
+    }
     return {};
   } catch (const std::bad_alloc&) {
     impl_.reset();
-    return Status::out_of_memory("scene: out of memory while building the tree");
+    return Status::out_of_memory("scene: out of memory while building");
   } catch (const std::exception& e) {
     impl_.reset();
     return detail::parallel_failure("scene", options.executor, e);
@@ -196,15 +223,14 @@ Status Scene::prepare(KernelId kernel, const Training& training, PrepareStats* s
   if (stats) *stats = {};
   if (!impl_ || !impl_->committed) return {StatusCode::invalid_argument, "scene: not committed"};
   const detail::Kernel& entry = detail::kernel_at(kernel);
-  if (!entry.prepare) return {};
+  if (!entry.prepare && !entry.needs_tree) return {};
   try {
+    impl_->tree->build(training.executor);
+    if (!entry.prepare) return {};
     const auto start = std::chrono::steady_clock::now();
-    impl_->side_tables.resize(detail::kernel_table_size());
-    std::shared_ptr<const detail::SideTable>& slot = impl_->side_tables[detail::kernel_place(kernel)];
-    slot.reset();
-    slot = entry.prepare({impl_->view, training});
+    impl_->make_side_table(kernel, training);
     if (stats) stats->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (stats && slot) stats->bytes = slot->bytes();
+    if (stats) stats->bytes = prepared_bytes(kernel);
     return {};
   } catch (const std::bad_alloc&) {
     return Status::out_of_memory("scene: out of memory while preparing a kernel");
@@ -228,7 +254,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& option
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, std::uint8_t{0});
   else
-    detail::kernel_at(options.kernel).entry_points().occluded(impl_->view_for(options.kernel), rays, out, options);
+    impl_->entry_points(options.kernel).occluded(impl_->view_for(options.kernel), rays, out, options);
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
@@ -236,9 +262,7 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
   if (!impl_ || !impl_->committed)
     occluded(rays, out, options);
   else
-    detail::kernel_at(options.kernel)
-        .entry_points()
-        .occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    impl_->entry_points(options.kernel).occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -250,21 +274,19 @@ void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const n
   if (!impl_ || !impl_->committed)
     std::fill(out, out + rays.count, Hit{});
   else
-    detail::kernel_at(options.kernel).entry_points().closest(impl_->view_for(options.kernel), rays, out, options);
+    impl_->entry_points(options.kernel).closest(impl_->view_for(options.kernel), rays, out, options);
 }
 
 void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {
   if (!impl_ || !impl_->committed)
     closest(rays, out, options);
   else
-    detail::kernel_at(options.kernel)
-        .entry_points()
-        .closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    impl_->entry_points(options.kernel).closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {
   static const BuildStats none;
-  return impl_ && impl_->committed ? impl_->stats : none;
+  return impl_ && impl_->committed ? impl_->tree->stats() : none;
 }
 
 bool Scene::bounds(float lower[3], float upper[3]) const noexcept {

@@ -94,6 +94,7 @@ Json build(const BuildStats& b) {
           {"node_bytes", b.node_bytes},
           {"leaf_bytes", b.leaf_bytes},
           {"triangle_bytes", b.triangle_bytes},
+          {"box_bytes", b.box_bytes},
           {"bytes", b.bytes},
           {"seconds_prepare", b.seconds_prepare},
           {"seconds_tree", b.seconds_tree},

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <limits>
 #include <string>
 
@@ -107,6 +108,12 @@ void occluded_stream(Query& query, RaySpan rays, std::uint8_t* out) {
 }
 #endif
 
+double seconds_on(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 Status no_memory() { return {StatusCode::resource_limit, "Embree: no memory for the geometry"}; }
 
 // Copies a mesh into buffers of Embree's own.
@@ -146,6 +153,8 @@ struct EmbreeScene::Impl {
   RTCScene scene = nullptr;
   std::atomic<std::ptrdiff_t> bytes{0};
   std::atomic<std::ptrdiff_t> peak{0};
+  double commit_seconds = 0;
+  double commit_thread_seconds = 0;
 
   Impl() = default;
   Impl(const Impl&) = delete;
@@ -225,7 +234,10 @@ Status EmbreeScene::build(const std::vector<MeshView>& meshes, const Options& op
     if (mesh.triangle_count == 0) continue;
     if (Status status = attach(impl->device, impl->scene, mesh, quality); !status) return status;
   }
+  const double wall = seconds_on(CLOCK_MONOTONIC), thread = seconds_on(CLOCK_THREAD_CPUTIME_ID);
   rtcCommitScene(impl->scene);
+  impl->commit_seconds = seconds_on(CLOCK_MONOTONIC) - wall;
+  impl->commit_thread_seconds = seconds_on(CLOCK_THREAD_CPUTIME_ID) - thread;
   if (rtcGetDeviceError(impl->device) != RTC_ERROR_NONE) return {StatusCode::internal, "Embree: the build failed"};
   impl_ = std::move(impl);
   return {};
@@ -252,6 +264,8 @@ void EmbreeScene::occluded(RaySpan rays, Mode mode, std::uint8_t* out) const {
   }
 }
 
+double EmbreeScene::commit_seconds() const { return impl_->commit_seconds; }
+double EmbreeScene::commit_thread_seconds() const { return impl_->commit_thread_seconds; }
 std::size_t EmbreeScene::bytes() const { return static_cast<std::size_t>(impl_->bytes.load()); }
 std::size_t EmbreeScene::peak_bytes() const { return static_cast<std::size_t>(impl_->peak.load()); }
 

@@ -51,6 +51,10 @@ class EmbreeScene {
   /// any host has to.
   void occluded(RaySpan rays, Mode mode, std::uint8_t* out) const;
 
+  /// What rtcCommitScene took of build: wall time, and processor time of the calling thread.
+  double commit_seconds() const;
+  double commit_thread_seconds() const;
+
   /// What Embree's memory monitor counted: after the build, and at most during it; vertices and indices included.
   std::size_t bytes() const;
   std::size_t peak_bytes() const;

@@ -74,8 +74,10 @@ Status measure(const Settings& settings, const std::string& path, std::vector<Ta
   if (Status status = workload::load_geometry(path, geometry); !status) return status;
   workload::Viewpoint viewpoint;
   if (Status status = workload::find_viewpoint(geometry, settings.setup, viewpoint); !status) return status;
+  BuildOptions build;
+  build.tree = TreeBuild::at_commit;  // its figures go into the table
   Scene scene;
-  if (Status status = workload::build_scene(geometry.views(), {}, scene); !status) return status;
+  if (Status status = workload::build_scene(geometry.views(), build, scene); !status) return status;
   std::vector<std::size_t> lights;
   if (Status status = choose_lights(settings.light, viewpoint.lights.size(), path, lights); !status) return status;
   for (const std::size_t light : lights) {

@@ -67,7 +67,7 @@ Status make_phase(const std::string& name, const Scene& scene, const workload::G
       if (std::isfinite(ray.tmax)) add_area_rays(ray, workload::diagonal(scene) / 80, random, rays);
   } else {
     return {StatusCode::invalid_argument,
-            fmt::format("there is no phase '{}'; there are first, next:D, shuffled and area", name)};
+            fmt::format("there is no phase '{}'; there are first, next:D, shuffled, area and build+first", name)};
   }
   if (out.frames.empty()) out.frames.push_back(std::move(rays));
   return {};

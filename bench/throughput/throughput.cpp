@@ -5,7 +5,6 @@
 // frame of its own, the sums: what is made in some frames for those that follow is paid for.
 #include <fmt/core.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -17,6 +16,8 @@
 #include "command.h"
 #include "embree/embree_scene.h"
 #include "report.h"
+#include "throughput/ask.h"
+#include "throughput/first_frame.h"
 #include "throughput/light_order.h"
 #include "throughput/phases.h"
 #include "umbrix/umbrix.h"
@@ -39,8 +40,6 @@ struct Settings {
   std::size_t light = 0;
   bool has_embree = true;
 };
-
-using Ask = std::function<void(RaySpan, std::uint8_t*)>;
 
 struct Peer {
   std::string name;
@@ -110,40 +109,22 @@ void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, boo
   }
 }
 
-// Processor time of this thread, or with several threads the wall time.
-double seconds_now(int threads) { return threads == 1 ? thread_seconds() : wall_seconds(); }
-
-void run(const Peer& peer, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
-  const auto parts = static_cast<std::size_t>(threads);
-  const std::size_t block_size = std::max<std::size_t>(4096, (rays.size() + parts - 1) / parts);
-  if (threads == 1 || rays.size() <= block_size) {
-    peer.run({rays.data(), rays.size()}, out);
-    return;
-  }
-  tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
-    const std::size_t begin = block * block_size;
-    peer.run({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
-  });
-}
-
 // One frame.
 double time_once(const Peer& peer, const std::vector<Ray>& rays, std::vector<std::uint8_t>& answers, int threads) {
   answers.resize(rays.size());
   tbb::task_arena arena(threads);
-  const double start = seconds_now(threads);
+  const double start = seconds_of(threads);
   if (peer.begin) peer.begin();
-  if (threads == 1)
-    run(peer, rays, answers.data(), 1);
-  else
-    arena.execute([&] { run(peer, rays, answers.data(), threads); });
+  arena.execute([&] { ask_all(peer.run, rays, answers.data(), threads); });
   if (peer.end) peer.end();
-  return seconds_now(threads) - start;
+  return seconds_of(threads) - start;
 }
 
 // Whatever the peers do not agree on, exact arithmetic decides.
 void judge(const workload::Geometry& geometry, const Phase& phase, std::vector<Peer>& peers) {
   for (std::size_t frame = 0; frame < phase.frames.size(); ++frame) {
     std::vector<const std::vector<std::uint8_t>*> answers;
+    answers.reserve(peers.size());
     for (const Peer& peer : peers) answers.push_back(&peer.answers[frame]);
     const std::vector<std::uint64_t> wrong = workload::count_wrong(geometry, phase.frames[frame], answers);
     for (std::size_t i = 0; i < peers.size(); ++i) peers[i].wrong += wrong[i];
@@ -259,11 +240,18 @@ Status measure(const Settings& settings, const std::string& path, nlohmann::json
   if (Status status = embree.build(views); !status) return status;
   for (const std::string& name : settings.phases) {
     Phase phase;
-    if (Status status =
-            make_phase(name, scene, geometry, viewpoint, settings.light, settings.size, settings.rounds, phase);
+    const bool builds = name == "build+first";
+    if (Status status = make_phase(builds ? "first" : name, scene, geometry, viewpoint, settings.light, settings.size,
+                                   settings.rounds, phase);
         !status)
       return status;
     if (phase.frames[0].empty()) continue;
+    if (builds) {
+      const FirstFrameSettings first{settings.threads, settings.rounds, settings.has_embree};
+      if (Status status = measure_first_frame(geometry, phase.frames[0], first, rows, any_wrong); !status)
+        return status;
+      continue;
+    }
     if (Status status = measure_phase(settings, geometry, phase, scene, embree, rows, any_wrong); !status)
       return status;
   }
@@ -299,7 +287,8 @@ std::function<ExitCode()> throughput_command(CLI::App& app) {
       ->check(CLI::Range(1, 1024));
   app.add_option("--rounds", settings->rounds, "Measured runs of each peer")->check(CLI::Range(1, 1000));
   app.add_option("--light", settings->light, "Which light, counted from 0");
-  app.add_option("--phase", settings->phases, "first, next:D (a camera moved by D of the diagonal), shuffled, area")
+  app.add_option("--phase", settings->phases,
+                 "first, next:D (a camera moved by D of the diagonal), shuffled, area; build+first: see README.md")
       ->delimiter(',');
   app.add_option("--kernel", settings->kernels, "Only these kernels")->delimiter(',');
   app.add_flag_callback(

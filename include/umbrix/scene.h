@@ -18,15 +18,23 @@ namespace detail {
 struct SceneAccess;
 }
 
-/// How much time a commit may spend on the tree.
+/// How much time the tree may take.
 enum class BuildQuality {
   high,  ///< exact surface area heuristic, triangles clipped to cells (Wald & Havran 2006)
   fast,  ///< binned heuristic on clipped boxes: for previews
 };
 
+/// When the tree is built. A scene always has a hierarchy of boxes, which is built much sooner, and which most rays of
+/// the default kernel want alone.
+enum class TreeBuild {
+  on_demand,  ///< when a query or Scene::prepare first needs it: that one query takes longer
+  at_commit,
+};
+
 struct BuildOptions {
-  BuildQuality quality = BuildQuality::high;
-  const Executor* executor = nullptr;  ///< null: oneTBB
+  BuildQuality quality = BuildQuality::high;  ///< of the tree
+  const Executor* executor = nullptr;         ///< of commit; a query that builds the tree uses oneTBB. Null: oneTBB
+  TreeBuild tree = TreeBuild::on_demand;
 };
 
 /// What a query sees and how it is answered.
@@ -51,7 +59,8 @@ struct PrepareStats {
   std::uint64_t bytes = 0;
 };
 
-/// Triangles and the tree over them. Add meshes, commit once, then ask.
+/// Triangles and what rays walk to find them: a hierarchy of boxes, and from when it is needed a KD-tree. Add meshes,
+/// commit once, then ask.
 ///
 /// Answers are those of real arithmetic for the float rays and float vertices: a ray hits a triangle if some
 /// t with tmin < t < tmax lies on it, edges and vertices included. A ray within a triangle's plane does not
@@ -73,12 +82,15 @@ class UMBRIX_API Scene {
   /// resource_limit: no memory, or more than 2^29 triangles.
   Status add(const MeshView& mesh, std::uint32_t* mesh_id = nullptr);
 
-  /// Builds the tree and prepares the default kernel. resource_limit: no memory; the scene then stays empty.
+  /// Makes all that an ordinary frame of the default kernel needs; the tree too if the options say so. resource_limit:
+  /// no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
 
-  /// Makes what a kernel needs beside the tree (KernelInfo::needs_preparation), in place of what it had; a kernel that
-  /// needs nothing is left alone. Answers do not depend on it. After commit, and not while queries run.
-  /// invalid_argument: not committed. resource_limit: no memory; the kernel then walks as "standard" does.
+  /// Builds the tree if the kernel can use it, and makes what the kernel needs beside it (KernelInfo::needs_preparation),
+  /// in place of what it had. Answers do not depend on it: queries build the tree themselves, and do without if there is
+  /// no memory. After commit, and not while queries run.
+  /// invalid_argument: not committed. resource_limit: no memory; the kernel then walks as "standard" does, or without
+  /// the tree as "bvh" does.
   Status prepare(KernelId kernel, const Training& training = {}, PrepareStats* stats = nullptr);
 
   /// What a kernel holds beside the tree now, after growing as rays wanted it; 0 if it was not prepared.
@@ -99,7 +111,7 @@ class UMBRIX_API Scene {
                 const QueryOptions& options = {}) const noexcept;
   void closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options = {}) const noexcept;
 
-  /// What commit did; zeros before.
+  /// What commit did, and with the tree's figures once it is built; zeros before.
   const BuildStats& build_stats() const noexcept;
 
   /// The box of the kept triangles; false (and zeros) if there are none.

@@ -45,7 +45,7 @@ struct OcclusionCounts {
   RayCounts unoccluded;
 };
 
-/// What Scene::commit made and what it cost.
+/// What Scene::commit made and what it cost. What is said of nodes and leaves is of the tree: zeros until it is built.
 struct BuildStats {
   std::uint64_t triangles = 0;           ///< added
   std::uint64_t dropped_nonfinite = 0;   ///< with a NaN or infinite vertex
@@ -60,11 +60,12 @@ struct BuildStats {
   std::uint64_t node_bytes = 0;
   std::uint64_t leaf_bytes = 0;
   std::uint64_t triangle_bytes = 0;  ///< the exact vertices
-  std::uint64_t bytes = 0;           ///< all that stays after commit
+  std::uint64_t box_bytes = 0;       ///< the hierarchy of boxes, with vertices of its own
+  std::uint64_t bytes = 0;           ///< all that stays
   double seconds_prepare = 0;        ///< checking, scaling, bounds, first sort
   double seconds_tree = 0;           ///< choosing and making splits
   double seconds_leaves = 0;         ///< packing leaf blocks
-  double seconds = 0;                ///< all of commit
+  double seconds = 0;                ///< all of commit, and of the tree if it was built later
 };
 
 }  // namespace umbrix

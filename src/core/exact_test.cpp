@@ -155,12 +155,12 @@ bool is_degenerate(const Triangle& triangle) noexcept {
   const DVec3 v0(triangle.v[0]);
   const DVec3 e1 = DVec3(triangle.v[1]) - v0;
   const DVec3 e2 = DVec3(triangle.v[2]) - v0;
-  const DVec3 plus(e1.y * e2.z, e1.z * e2.x, e1.x * e2.y);
-  const DVec3 minus(e1.z * e2.y, e1.x * e2.z, e1.y * e2.x);
-  // Five roundings at most: two differences, a product and the difference of products.
-  const DVec3 error = 0x1p-50 * (glm::abs(plus) + glm::abs(minus));
-  const DVec3 normal = glm::abs(plus - minus);
-  if (normal.x > error.x || normal.y > error.y || normal.z > error.z) return false;
+  for (int axis = 2; axis >= 0; --axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const double plus = e1[u] * e2[v], minus = e1[v] * e2[u];
+    // Five roundings at most: two differences, a product and the difference of products.
+    if (std::abs(plus - minus) > 0x1p-50 * (std::abs(plus) + std::abs(minus))) return false;
+  }
 
   const Ray nowhere{};
   const int unit = Units(nowhere, &triangle, 1).position;

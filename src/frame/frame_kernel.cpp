@@ -8,11 +8,11 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
+#include "kernels/bvh_walk-inl.h"
 #include "kernels/group-inl.h"
 #include "kernels/indexed_walk-inl.h"
 #include "kernels/light_trace-inl.h"
 #include "kernels/link_walk-inl.h"
-#include "kernels/tree_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -67,7 +67,9 @@ class EachRay {
       IndexedKernel::State state(indexed_);
       return IndexedKernel::occluded(indexed_, filter_, ray, state, counts);
     }
-    return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
+    if (tile_.scene.lazy_tree->is_built())
+      return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
+    return BvhKernel::occluded(tile_.scene, filter_, ray, no_state_, counts);
   }
 
   RayRoute choose(const Ray& ray, Guess guess) const {
@@ -89,9 +91,9 @@ class EachRay {
 template <class Counts>
 void trace_with(FrameTile& tile) {
   if (tile.tables.view && LightTrace<Counts>(tile.scene, *tile.tables.view).trace(tile.rays)) return;
-  if (tile.tables.wide) {
-    Group<TileMemory, Counts> group(tile.scene, *tile.tables.wide, tile.rays, tile.memory,
-                                    tile.method != FrameMethod::beam);
+  const WideTree* const wide = tile.tables.view ? tile.tables.view->need_wide() : tile.tables.wide;
+  if (wide) {
+    Group<TileMemory, Counts> group(tile.scene, *wide, tile.rays, tile.memory, tile.method != FrameMethod::beam);
     group.trace();
     tile.tries = group.tries();
   } else {

@@ -82,9 +82,10 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
     }
     if (options.method == FrameMethod::best) {
       view_table = std::static_pointer_cast<const detail::LightViewTable>(detail::SceneAccess::default_side(the_scene));
-      tables.wide = tables.view = view_table.get();
+      tables.view = view_table.get();
     }
-    if (!tables.wide && uses_groups()) {
+    if (!tables.view) scene.lazy_tree->build(options.executor);
+    if (!tables.view && uses_groups()) {
       wide = std::make_unique<detail::WideTree>(tree, scene.triangles);
       tables.wide = wide.get();
     }

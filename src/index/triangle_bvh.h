@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "core/lazy_array.h"
 #include "core/math.h"
 #include "umbrix/executor.h"
 
@@ -19,9 +19,12 @@ struct alignas(64) TriangleRows {
   float v[3][3][kRowLanes];  ///< by vertex and axis
   std::uint32_t id[kRowLanes];
   std::uint32_t count;
+  float edge_bound;  ///< no edge from a first vertex is longer
+  float reach;       ///< the box's diagonal: first vertices are that near to any point of the box
 };
 
-/// Boxes of up to four children. What is left over has a box that nothing meets.
+/// Boxes of up to four children, grown by the tree's eps as its cells are. What is left over has a box that nothing
+/// meets.
 struct alignas(64) BvhNode {
   float lower[3][kBvhWidth], upper[3][kBvhWidth];
   std::uint32_t child[kBvhWidth];  ///< a node, or kBvhLeaf with the place of a TriangleRows
@@ -29,25 +32,29 @@ struct alignas(64) BvhNode {
   static constexpr std::uint32_t kLeaf = 0x80000000u;
 };
 
+/// No leaf is deeper, counted in nodes.
+inline constexpr std::uint32_t kMaxBvhDepth = 64;
+
 /// A hierarchy of boxes in which each triangle is once: for walks that many rays share, where a triangle that is met
-/// twice costs more than boxes that overlap.
+/// twice costs more than boxes that overlap; and for all rays as long as there is no tree, since it is soon built.
 class TriangleBvh {
  public:
-  /// Over the triangles named by `kept`, times 2^exponent. Throws std::bad_alloc, or what the executor throws (null:
-  /// oneTBB).
-  TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent,
+  TriangleBvh() = default;
+  /// Over the triangles named by `kept`, times 2^exponent, with boxes grown by `eps`. Throws std::bad_alloc, or what
+  /// the executor throws (null: oneTBB).
+  TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent, float eps,
               const Executor* executor);
 
   std::uint64_t bytes() const noexcept;
 
   /// Node 0 is the root; there is none if there are no triangles.
-  bool empty() const noexcept { return nodes_.empty(); }
+  bool empty() const noexcept { return nodes_.size() == 0; }
   const BvhNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
   const TriangleRows& rows(std::uint32_t index) const noexcept { return rows_[index]; }
 
  private:
-  std::vector<BvhNode> nodes_;
-  std::vector<TriangleRows> rows_;
+  LazyArray<BvhNode> nodes_;
+  LazyArray<TriangleRows> rows_;
 };
 
 }  // namespace umbrix::detail

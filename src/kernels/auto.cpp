@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // All rays to a light as the light sees them (light_trace-inl.h); what that is not for goes in groups that share a
-// walk, and first meets what blocked the rays before (group-inl.h). The default.
+// walk of the tree, and first meets what blocked the rays before (group-inl.h), or as long as it is not worth a tree
+// ray by ray through the boxes (bvh_walk-inl.h). Queries that count work build the tree first, so that counts do not
+// depend on what was asked before. The default.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/auto.cpp"
@@ -9,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/batch-inl.h"
+#include "kernels/bvh_walk-inl.h"
 #include "kernels/light_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +25,11 @@ struct AutoKernel {
   static void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
     for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
       const GroupRays group{part, out + begin, here.skip, here.mask};
-      if (!trace<NoCounts>(scene, group)) Others::occluded(scene, part, out + begin, here);
+      if (trace<NoCounts>(scene, group)) return;
+      if (const WideTree* const wide = earn_wide(scene, part.count))
+        Others::occluded(with_side(scene, wide), part, out + begin, here);
+      else
+        occluded_each<BvhKernel>(scene, part, out + begin, here);
     });
   }
 
@@ -31,19 +38,48 @@ struct AutoKernel {
     for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
       WorkSums sums;
       const GroupRays group{part, out + begin, here.skip, here.mask, nullptr, nullptr, &sums};
-      if (!trace<CountEach>(scene, group)) {
-        Others::occluded_counted(scene, part, out + begin, here, counts);
-        return;
+      if (trace<CountEach>(scene, group)) {
+        counts.occluded += sums.counts.occluded;
+        counts.unoccluded += sums.counts.unoccluded;
+      } else if (const WideTree* const wide = scene.side ? table(scene).need_wide() : nullptr) {
+        Others::occluded_counted(with_side(scene, wide), part, out + begin, here, counts);
+      } else {
+        occluded_each_counted<BvhKernel>(scene, part, out + begin, here, counts);
       }
-      counts.occluded += sums.counts.occluded;
-      counts.unoccluded += sums.counts.unoccluded;
     });
+  }
+
+  static void closest(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
+    if (scene.lazy_tree->earn(rays.count))
+      closest_each<TreeKernel<StackWalk>>(scene, rays, out, options);
+    else
+      closest_each<BvhKernel>(scene, rays, out, options);
+  }
+
+  static void closest_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,
+                              RayCounts& counts) {
+    if (scene.lazy_tree->need())
+      closest_each_counted<TreeKernel<StackWalk>>(scene, rays, out, options, counts);
+    else
+      closest_each_counted<BvhKernel>(scene, rays, out, options, counts);
   }
 
  private:
   template <class Counts>
   static bool trace(const SceneView& scene, const GroupRays& rays) {
-    return scene.side && LightTrace<Counts>(scene, *static_cast<const LightViewTable*>(scene.side)).trace(rays);
+    return scene.side && LightTrace<Counts>(scene, table(scene)).trace(rays);
+  }
+
+  static const LightViewTable& table(const SceneView& scene) { return *static_cast<const LightViewTable*>(scene.side); }
+
+  static const WideTree* earn_wide(const SceneView& scene, std::size_t rays) {
+    return scene.side ? table(scene).earn_wide(rays) : nullptr;
+  }
+
+  static SceneView with_side(const SceneView& scene, const WideTree* wide) {
+    SceneView result = scene;
+    result.side = wide;
+    return result;
   }
 
   template <class Each>
@@ -57,9 +93,8 @@ struct AutoKernel {
 };
 
 const EntryPoints& auto_entry_points() {
-  using Closest = TreeKernel<StackWalk>;
   static constexpr EntryPoints kEntryPoints = {&AutoKernel::occluded, &AutoKernel::occluded_counted,
-                                               &closest_each<Closest>, &closest_each_counted<Closest>};
+                                               &AutoKernel::closest, &AutoKernel::closest_counted};
   return kEntryPoints;
 }
 
@@ -74,11 +109,14 @@ namespace {
 
 std::unique_ptr<SideTable> make_light_view(const PrepareInput& input) {
   const SceneView& s = input.scene;
-  return std::make_unique<LightViewTable>(*s.tree, s.triangles, s.kept, s.kept_count, input.training.executor);
+  auto table = std::make_unique<LightViewTable>(*s.bvh, *s.lazy_tree, s.triangles);
+  if (s.lazy_tree->is_built()) table->make_wide(input.training.executor);
+  return table;
 }
 
 }  // namespace
 }  // namespace umbrix::detail
-UMBRIX_DEFINE_KERNEL(kAutoKernel, auto_entry_points, "auto",
-                     "all rays to a light in one walk, as the light sees them; other rays in groups", make_light_view)
+UMBRIX_DEFINE_TREELESS_KERNEL(kAutoKernel, auto_entry_points, "auto",
+                              "all rays to a light in one walk, as the light sees them; other rays in groups",
+                              make_light_view)
 #endif

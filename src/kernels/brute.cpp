@@ -44,7 +44,8 @@ struct Brute {
 
 extern const Kernel kBruteKernel = {{"brute", "every triangle in turn; the truth, for tests and tiny scenes", false},
                                     &HWY_NAMESPACE::entry_points<HWY_NAMESPACE::Brute>,
-                                    nullptr};
+                                    nullptr,
+                                    false};
 
 }  // namespace umbrix::detail
 HWY_AFTER_NAMESPACE();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/float_mode.h"
+#include "index/triangle_bvh.h"
 #include "kernels/ray_class.h"
 #include "kernels/scene_view.h"
 
@@ -41,6 +42,14 @@ class FarRay {
     return beyond_double_ ? visit_all(visit, counts) : walk(visit, counts);
   }
 
+  /// The same by the hierarchy of boxes, without the tree.
+  template <class Visit, class Counts>
+  bool visit_candidates(const TriangleBvh& bvh, Visit&& visit, Counts& counts) noexcept {
+    counts.far_ray();
+    if (bvh.empty()) return false;
+    return beyond_double_ ? visit_all(visit, counts) : visit_node(bvh, 0, visit, counts);
+  }
+
  private:
   double plane_time(float plane, int axis) const noexcept {
     return (static_cast<double>(plane) - origin_[axis]) * inverse_[axis];
@@ -62,6 +71,37 @@ class FarRay {
       counts.primitives(block.count);
       for (std::uint32_t lane = 0; lane < block.count; ++lane)
         if (visit(block.id[lane])) return true;
+    }
+    return false;
+  }
+
+  bool crosses(const BvhNode& node, std::uint32_t lane) const noexcept {
+    double t0 = t0_, t1 = t1_;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = plane_time(node.lower[axis][lane], axis), high = plane_time(node.upper[axis][lane], axis);
+      t0 = std::max(t0, inverse_[axis] < 0 ? high : low);
+      t1 = std::min(t1, inverse_[axis] < 0 ? low : high);
+    }
+    return t0 <= t1;
+  }
+
+  /// No deeper than the hierarchy.
+  template <class Visit, class Counts>
+  bool visit_node(const TriangleBvh& bvh, std::uint32_t index, Visit& visit, Counts& counts) const noexcept {
+    const BvhNode& node = bvh.node(index);
+    counts.node();
+    for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+      if (!crosses(node, lane)) continue;
+      if ((node.child[lane] & BvhNode::kLeaf) == 0) {
+        if (visit_node(bvh, node.child[lane], visit, counts)) return true;
+        continue;
+      }
+      const TriangleRows& rows = bvh.rows(node.child[lane] & ~BvhNode::kLeaf);
+      counts.node();
+      counts.leaf();
+      counts.primitives(rows.count);
+      for (std::uint32_t i = 0; i < rows.count; ++i)
+        if (visit(rows.id[i])) return true;
     }
     return false;
   }

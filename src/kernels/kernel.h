@@ -27,11 +27,19 @@ struct Kernel {
   KernelInfo info;
   const EntryPoints& (*entry_points)();                        ///< those of the instruction set in use
   std::unique_ptr<SideTable> (*prepare)(const PrepareInput&);  ///< null: the kernel needs nothing beside the tree
+  bool needs_tree = true;  ///< is the tree to be built before its first query? else it asks for it, if it uses it
 };
 
 /// Defines a kernel at the end of its file, within HWY_ONCE. `entry` is the function that each instruction set's
 /// namespace has for it.
-#define UMBRIX_DEFINE_KERNEL(variable, entry, name, summary, prepare_function)                   \
+#define UMBRIX_DEFINE_KERNEL(variable, entry, name, summary, prepare_function) \
+  UMBRIX_DEFINE_ANY_KERNEL(variable, entry, name, summary, prepare_function, true)
+
+/// The same for one that does not need the tree.
+#define UMBRIX_DEFINE_TREELESS_KERNEL(variable, entry, name, summary, prepare_function) \
+  UMBRIX_DEFINE_ANY_KERNEL(variable, entry, name, summary, prepare_function, false)
+
+#define UMBRIX_DEFINE_ANY_KERNEL(variable, entry, name, summary, prepare_function, needs_tree)   \
   namespace umbrix::detail {                                                                     \
   namespace {                                                                                    \
   HWY_EXPORT(entry);                                                                             \
@@ -39,7 +47,8 @@ struct Kernel {
   extern const Kernel variable;                                                                  \
   const Kernel variable = {{name, summary, (prepare_function) != nullptr},                       \
                            []() -> const EntryPoints& { return HWY_DYNAMIC_DISPATCH(entry)(); }, \
-                           prepare_function};                                                    \
+                           prepare_function,                                                     \
+                           needs_tree};                                                          \
   }  // namespace umbrix::detail
 
 /// Prepares the kernels that have a WideTree as their side table.

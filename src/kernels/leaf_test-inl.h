@@ -15,6 +15,7 @@
 
 #include <hwy/highway.h>
 
+#include "index/triangle_bvh.h"
 #include "kernels/scene_view.h"
 #include "kernels/walk-inl.h"
 
@@ -46,7 +47,52 @@ inline std::uint32_t bits_of(FloatMask mask) {
   return bytes[0];
 }
 
-/// The ray's values in every lane, and the bounds that depend on the ray alone.
+/// Eight triangles of a row of sixteen, from `first` on, tested as a block is.
+struct RowHalf {
+  const TriangleRows& rows;
+  std::uint32_t first;
+  std::uint32_t count;
+  float edge_bound, reach;
+  const std::uint32_t* id;
+
+  RowHalf(const TriangleRows& the_rows, std::uint32_t first_lane)
+      : rows(the_rows),
+        first(first_lane),
+        count(std::min(kBlockLanes, the_rows.count - first_lane)),
+        edge_bound(the_rows.edge_bound),
+        reach(the_rows.reach),
+        id(the_rows.id + first_lane) {}
+};
+
+struct LaneVectors {
+  FloatVec x, y, z;
+};
+HWY_INLINE LaneVectors load_lanes(const float (&rows)[3][kBlockLanes], std::uint32_t lane) {
+  const Lanes8 f;
+  return {hn::Load(f, rows[0] + lane), hn::Load(f, rows[1] + lane), hn::Load(f, rows[2] + lane)};
+}
+HWY_INLINE LaneVectors load_lanes(const float (&rows)[3][kRowLanes], std::uint32_t lane) {
+  const Lanes8 f;
+  return {hn::Load(f, rows[0] + lane), hn::Load(f, rows[1] + lane), hn::Load(f, rows[2] + lane)};
+}
+
+/// A triangle's first vertex and the edges from it, each rounded once.
+struct LaneTriangles {
+  LaneVectors v0, e1, e2;
+};
+HWY_INLINE LaneTriangles load_triangles(const Block& block, std::uint32_t lane) {
+  return {load_lanes(block.v0, lane), load_lanes(block.e1, lane), load_lanes(block.e2, lane)};
+}
+HWY_INLINE LaneTriangles load_triangles(const RowHalf& half, std::uint32_t lane) {
+  const auto edge = [](const LaneVectors& to, const LaneVectors& from) {
+    return LaneVectors{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
+  };
+  const LaneVectors v0 = load_lanes(half.rows.v[0], half.first + lane);
+  return {v0, edge(load_lanes(half.rows.v[1], half.first + lane), v0),
+          edge(load_lanes(half.rows.v[2], half.first + lane), v0)};
+}
+
+/// The ray's values in every lane, and the bounds that depend on the ray alone. Triangles are a Block or a RowHalf.
 class LeafTest {
  public:
   explicit LeafTest(const WalkRay& ray)
@@ -59,20 +105,25 @@ class LeafTest {
   }
 
   /// How far the first vertices in a leaf's block can be from the origin of a ray that is in the leaf at time `t`.
-  HWY_INLINE float reach(const Block& block, float t) const { return std::abs(t) * ray_.length + block.reach; }
+  template <class Triangles>
+  HWY_INLINE float reach(const Triangles& block, float t) const {
+    return std::abs(t) * ray_.length + block.reach;
+  }
 
   /// Tests a block none of whose first vertices is farther than `reach` from the origin, for hits before `tmax`.
-  HWY_INLINE LaneBits operator()(const Block& block, float reach, float tmax) const {
+  template <class Triangles>
+  HWY_INLINE LaneBits operator()(const Triangles& block, float reach, float tmax) const {
     LaneBits result;
     const Lanes8 f;
     const float error = edge_factor_ * block.edge_bound * (2 * reach + block.edge_bound) + kTinyEdge;
     const auto reject_below = hn::Set(f, kMissFactor * error);
     for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const Values x = evaluate(block, lane);
+      const LaneTriangles triangles = load_triangles(block, lane);
+      const Values x = evaluate(triangles);
       const auto smallest = hn::Min(hn::Min(x.u, x.v), x.w);
       const auto open = hn::Ge(smallest, reject_below);
       if (HWY_LIKELY(hn::AllFalse(f, open))) continue;
-      decide_times(block, lane, x, smallest, open, error, reach, tmax, result);
+      decide_times(triangles, block.edge_bound, lane, x, smallest, open, error, reach, tmax, result);
     }
     const std::uint32_t in_use = (1u << block.count) - 1;
     result.hit &= in_use;
@@ -81,11 +132,12 @@ class LeafTest {
   }
 
   /// Sharper bounds, lane by lane, for what the block's bound left open. Only `lanes` are looked at.
-  HWY_NOINLINE LaneBits with_permanents(const Block& block, std::uint32_t lanes) const {
+  template <class Triangles>
+  HWY_NOINLINE LaneBits with_permanents(const Triangles& block, std::uint32_t lanes) const {
     LaneBits result;
     const Lanes8 f;
     for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f)))
-      decide_by_permanents(block, lane, result);
+      decide_by_permanents(load_triangles(block, lane), lane, result);
     result.hit &= lanes;
     result.undecided &= lanes;
     return result;
@@ -99,21 +151,18 @@ class LeafTest {
     FloatVec q[3];
   };
 
-  static FloatVec row(const float (&rows)[3][kBlockLanes], int k, std::uint32_t lane) {
-    return hn::Load(Lanes8(), rows[k] + lane);
-  }
   static FloatVec dot(FloatVec ax, FloatVec ay, FloatVec az, FloatVec bx, FloatVec by, FloatVec bz) {
     return hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx)));
   }
   static FloatVec cross_term(FloatVec a, FloatVec b, FloatVec c, FloatVec d) { return hn::MulSub(a, b, hn::Mul(c, d)); }
 
-  HWY_INLINE Values evaluate(const Block& block, std::uint32_t lane) const {
+  HWY_INLINE Values evaluate(const LaneTriangles& triangles) const {
     const Lanes8 f;
-    const auto e1x = row(block.e1, 0, lane), e1y = row(block.e1, 1, lane), e1z = row(block.e1, 2, lane);
-    const auto e2x = row(block.e2, 0, lane), e2y = row(block.e2, 1, lane), e2z = row(block.e2, 2, lane);
-    const auto sx = hn::Sub(origin_[0], row(block.v0, 0, lane));
-    const auto sy = hn::Sub(origin_[1], row(block.v0, 1, lane));
-    const auto sz = hn::Sub(origin_[2], row(block.v0, 2, lane));
+    const auto [e1x, e1y, e1z] = triangles.e1;
+    const auto [e2x, e2y, e2z] = triangles.e2;
+    const auto sx = hn::Sub(origin_[0], triangles.v0.x);
+    const auto sy = hn::Sub(origin_[1], triangles.v0.y);
+    const auto sz = hn::Sub(origin_[2], triangles.v0.z);
     const auto px = cross_term(direction_[1], e2z, direction_[2], e2y);
     const auto py = cross_term(direction_[2], e2x, direction_[0], e2z);
     const auto pz = cross_term(direction_[0], e2y, direction_[1], e2x);
@@ -130,18 +179,18 @@ class LeafTest {
     return x;
   }
 
-  HWY_INLINE FloatVec time_numerator(const Block& block, std::uint32_t lane, const Values& x) const {
-    return hn::Xor(dot(row(block.e2, 0, lane), row(block.e2, 1, lane), row(block.e2, 2, lane), x.q[0], x.q[1], x.q[2]),
-                   x.sign);
+  HWY_INLINE FloatVec time_numerator(const LaneTriangles& triangles, const Values& x) const {
+    return hn::Xor(dot(triangles.e2.x, triangles.e2.y, triangles.e2.z, x.q[0], x.q[1], x.q[2]), x.sign);
   }
 
-  HWY_INLINE void decide_times(const Block& block, std::uint32_t lane, const Values& x, FloatVec smallest,
-                               FloatMask open, float error, float reach, float tmax, LaneBits& result) const {
+  HWY_INLINE void decide_times(const LaneTriangles& triangles, float edge_bound, std::uint32_t lane, const Values& x,
+                               FloatVec smallest, FloatMask open, float error, float reach, float tmax,
+                               LaneBits& result) const {
     const Lanes8 f;
-    const float square = kNormBound * block.edge_bound * block.edge_bound;
+    const float square = kNormBound * edge_bound * edge_bound;
     const float start_error = square * (reach + start_reach_) + kTinyTime;
     const float end_error = square * (reach + std::abs(tmax) * ray_.length) + kTinyTime;
-    const auto t = time_numerator(block, lane, x);
+    const auto t = time_numerator(triangles, x);
     const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, ray_.tmin), x.det));
     const auto before_end = hn::Sub(hn::Mul(hn::Set(f, tmax), x.det), t);
     const auto e = hn::Set(f, error), ea = hn::Set(f, start_error), eb = hn::Set(f, end_error);
@@ -160,15 +209,15 @@ class LeafTest {
     return hn::Add(hn::Abs(hn::Mul(a, b)), hn::Abs(hn::Mul(c, d)));
   }
 
-  void decide_by_permanents(const Block& block, std::uint32_t lane, LaneBits& result) const {
+  void decide_by_permanents(const LaneTriangles& triangles, std::uint32_t lane, LaneBits& result) const {
     const Lanes8 f;
-    const Values x = evaluate(block, lane);
-    const auto t = time_numerator(block, lane, x);
-    const auto e1x = row(block.e1, 0, lane), e1y = row(block.e1, 1, lane), e1z = row(block.e1, 2, lane);
-    const auto e2x = row(block.e2, 0, lane), e2y = row(block.e2, 1, lane), e2z = row(block.e2, 2, lane);
-    const auto sx = hn::Sub(origin_[0], row(block.v0, 0, lane));
-    const auto sy = hn::Sub(origin_[1], row(block.v0, 1, lane));
-    const auto sz = hn::Sub(origin_[2], row(block.v0, 2, lane));
+    const Values x = evaluate(triangles);
+    const auto t = time_numerator(triangles, x);
+    const auto [e1x, e1y, e1z] = triangles.e1;
+    const auto [e2x, e2y, e2z] = triangles.e2;
+    const auto sx = hn::Sub(origin_[0], triangles.v0.x);
+    const auto sy = hn::Sub(origin_[1], triangles.v0.y);
+    const auto sz = hn::Sub(origin_[2], triangles.v0.z);
     const auto px = abs_cross_term(direction_[1], e2z, direction_[2], e2y);
     const auto py = abs_cross_term(direction_[2], e2x, direction_[0], e2z);
     const auto pz = abs_cross_term(direction_[0], e2y, direction_[1], e2x);

@@ -16,10 +16,10 @@
 #include <new>
 
 #include "core/float_mode.h"
+#include "kernels/bvh_walk-inl.h"
 #include "kernels/light_packets-inl.h"
 #include "kernels/light_rays-inl.h"
 #include "kernels/light_walk-inl.h"
-#include "kernels/tree_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -77,7 +77,7 @@ class LightTrace {
   }
 
   void trace_odd(const GroupRays& rays, const LightViewScratch& scratch, std::vector<Counts>& each) const {
-    using Single = TreeKernel<StackWalk>;
+    using Single = BvhKernel;
     Filter filter(scene_, rays.mask);
     typename Single::State state(scene_);
     NoCounts none;

@@ -3,13 +3,18 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <vector>
 
+#include "core/chunked_array.h"
+#include "core/lazy_array.h"
 #include "index/triangle_bvh.h"
 #include "index/wide_tree.h"
+#include "tree/lazy_tree.h"
 
 namespace umbrix::detail {
 
@@ -80,6 +85,17 @@ struct Meeting {
 
 /// Memory of one call, used again by the next.
 struct LightViewScratch {
+  /// One value of each ray, in memory that all share: large pages serve one large piece better than four.
+  template <class T>
+  struct Column {
+    T* begin = nullptr;
+
+    T* data() const noexcept { return begin; }
+    T& operator[](std::size_t i) const noexcept { return begin[i]; }
+  };
+  struct RayColumns {
+    float values[4];
+  };
   struct FaceGroups {
     std::vector<RayGroup> groups;
     std::vector<ViewRows> rows;
@@ -99,8 +115,9 @@ struct LightViewScratch {
     std::uint64_t nodes = 0, leaves = 0;
   };
 
-  std::vector<float> u, v, w;      ///< of rays, in the order of groups once there are groups
-  std::vector<std::int32_t> name;  ///< their places in the caller's order
+  LazyArray<RayColumns> columns;
+  Column<float> u, v, w;      ///< of rays, in the order of groups once there are groups
+  Column<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
   std::vector<Record> records;        ///< for sorting
@@ -109,7 +126,7 @@ struct LightViewScratch {
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
-  std::vector<LightTriangles> triangles;
+  ChunkedArray<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
@@ -117,11 +134,13 @@ struct LightViewScratch {
 
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
-    if (u.size() < room) {
-      u.resize(room);
-      v.resize(room);
-      w.resize(room);
-      name.resize(room);
+    if (columns.size() < room) {
+      columns = LazyArray<RayColumns>();
+      columns = LazyArray<RayColumns>(room, Fill::nothing);
+      u = {columns.data()->values};
+      v = {u.begin + room};
+      w = {v.begin + room};
+      name = {reinterpret_cast<std::int32_t*>(w.begin + room)};
     }
     ray_count = 0;
     odd.clear();
@@ -129,7 +148,7 @@ struct LightViewScratch {
     for (FaceGroups& face : faces) face.groups.clear();
   }
   std::uint64_t bytes() const noexcept {
-    const std::uint64_t rays = 4 * u.capacity() * sizeof(float) + records.capacity() * sizeof(Record);
+    const std::uint64_t rays = columns.size() * sizeof(RayColumns) + records.capacity() * sizeof(Record);
     return rays + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
   }
   std::size_t group_count() const noexcept {
@@ -139,22 +158,33 @@ struct LightViewScratch {
   }
 };
 
-/// The wide tree, for rays that a view of the light is not for; the hierarchy that the view walks; and memory that
-/// calls borrow. Any threads.
-class LightViewTable : public WideTree {
+/// The hierarchy that the view walks; memory that calls borrow; and the wide tree, for rays that a view of the light is
+/// not for, from when they want it. Any threads.
+class LightViewTable : public SideTable {
  public:
-  /// Throws std::bad_alloc, or what the executor throws.
-  LightViewTable(const Tree& tree, const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count,
-                 const Executor* executor)
-      : WideTree(tree, triangles), bvh_(triangles, kept, kept_count, tree.scale_exponent, executor) {}
+  /// What is named must outlive it.
+  LightViewTable(const TriangleBvh& bvh, const LazyTree& tree, const Triangle* triangles)
+      : bvh_(bvh), tree_(tree), triangles_(triangles) {}
 
   const TriangleBvh& bvh() const noexcept { return bvh_; }
   std::uint64_t bytes() const noexcept override {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::uint64_t held = WideTree::bytes() + bvh_.bytes();
+    std::uint64_t held = wide_ ? wide_->bytes() : 0;
     for (const auto& scratch : idle_) held += scratch->bytes();
     return held;
   }
+
+  /// Builds the tree, if need be. Throws what that does.
+  void make_wide(const Executor* executor) const {
+    tree_.build(executor);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!wide_) wide_ = std::make_unique<WideTree>(tree_.tree(), triangles_);
+    wide_now_.store(wide_.get(), std::memory_order_release);
+  }
+  /// Null if there is no memory.
+  const WideTree* need_wide() const noexcept { return tree_.need() ? wide_of_built() : nullptr; }
+  /// Null if so few rays have wanted it that it does not pay yet, or if there is no memory.
+  const WideTree* earn_wide(std::size_t rays) const noexcept { return tree_.earn(rays) ? wide_of_built() : nullptr; }
 
   /// Throws std::bad_alloc.
   std::unique_ptr<LightViewScratch> borrow() const {
@@ -174,8 +204,22 @@ class LightViewTable : public WideTree {
   }
 
  private:
-  TriangleBvh bvh_;
-  mutable std::mutex mutex_;
+  const WideTree* wide_of_built() const noexcept {
+    if (const WideTree* const wide = wide_now_.load(std::memory_order_acquire)) return wide;
+    try {
+      make_wide(nullptr);
+    } catch (const std::bad_alloc&) {
+      return nullptr;
+    }
+    return wide_now_.load(std::memory_order_acquire);
+  }
+
+  const TriangleBvh& bvh_;
+  const LazyTree& tree_;
+  const Triangle* triangles_;
+  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::unique_ptr<WideTree> wide_;
+  mutable std::atomic<const WideTree*> wide_now_{nullptr};
   mutable std::vector<std::unique_ptr<LightViewScratch>> idle_;
 };
 

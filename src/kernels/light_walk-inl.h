@@ -230,8 +230,7 @@ class LightWalk {
 
   void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
-    if (scratch_.triangles.size() <= scratch_.triangle_count)
-      scratch_.triangles.resize(2 * scratch_.triangle_count + 256);
+    scratch_.triangles.grow(scratch_.triangle_count + 1);
     LightTriangles& triangles = scratch_.triangles[scratch_.triangle_count];
     lanes.bound(triangles.bounds);
     const std::uint32_t all = (1u << rows.count) - 1;

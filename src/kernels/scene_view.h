@@ -7,8 +7,9 @@
 
 #include "core/triangle_test.h"
 #include "index/side_table.h"
+#include "index/triangle_bvh.h"
 #include "kernels/counts.h"
-#include "tree/tree.h"
+#include "tree/lazy_tree.h"
 #include "umbrix/mesh.h"
 #include "umbrix/scene.h"
 
@@ -31,8 +32,10 @@ struct SceneView {
   const std::uint32_t* mesh_of;  ///< by triangle
   const MeshRecord* meshes;
   std::size_t mesh_count;
-  bool all_plain;                   ///< no mesh has a zero mask or an opacity test
-  const SideTable* side = nullptr;  ///< of the kernel that is asked, if it was prepared
+  bool all_plain;                       ///< no mesh has a zero mask or an opacity test
+  const SideTable* side = nullptr;      ///< of the kernel that is asked, if it was prepared
+  const LazyTree* lazy_tree = nullptr;  ///< of kernels that do not need the tree: to be asked before its nodes are read
+  const TriangleBvh* bvh = nullptr;
 };
 
 /// The inside of a scene, for what is built on it.

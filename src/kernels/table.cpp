@@ -9,6 +9,7 @@
 // In the order shown to users; the first is the default.
 #define UMBRIX_KERNELS(KERNEL) \
   KERNEL(kAutoKernel)          \
+  KERNEL(kBvhKernel)           \
   KERNEL(kStandardKernel)      \
   KERNEL(kIndexedKernel)       \
   KERNEL(kIndexedPaperKernel)  \

@@ -34,19 +34,29 @@ HWY_INLINE std::uint32_t lane_of(std::uint32_t bits) {
   return static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
 }
 
-/// Does the block hold a triangle that blocks the ray? No first vertex in it is farther than `reach` from the origin.
+/// Tells the observer what ended the ray, if it is where the next ray can meet it first. True.
 template <class Counts>
+HWY_INLINE bool note_blocker(Counts& counts, const Block& block, std::uint32_t lane) {
+  return counts.blocked_by(block, lane);
+}
+template <class Counts>
+HWY_INLINE bool note_blocker(Counts&, const RowHalf&, std::uint32_t) {
+  return true;
+}
+
+/// Does the block hold a triangle that blocks the ray? No first vertex in it is farther than `reach` from the origin.
+template <class Triangles, class Counts>
 HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
-                             const WalkRay& walk_ray, const Block& block, float reach, Counts& counts) {
+                             const WalkRay& walk_ray, const Triangles& block, float reach, Counts& counts) {
   counts.primitives(block.count);
   LaneBits lanes = test(block, reach, walk_ray.tmax);
   if (HWY_LIKELY((lanes.hit | lanes.undecided) == 0)) return false;
   if (filter.passes_all()) {
-    if (lanes.hit) return counts.blocked_by(block, lane_of(lanes.hit));
+    if (lanes.hit) return note_blocker(counts, block, lane_of(lanes.hit));
   } else {
     for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
       const std::uint32_t id = block.id[lane_of(rest)];
-      if (filter.admits(id) && filter.is_opaque(ray, id)) return counts.blocked_by(block, lane_of(rest));
+      if (filter.admits(id) && filter.is_opaque(ray, id)) return note_blocker(counts, block, lane_of(rest));
     }
   }
   // The triangle that the ray starts on is the one most often undecided: leave it out before the sharper tests.
@@ -57,11 +67,11 @@ HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const
   lanes = test.with_permanents(block, open);
   for (std::uint32_t rest = lanes.hit; rest != 0; rest &= rest - 1) {
     const std::uint32_t lane = lane_of(rest);
-    if (filter.is_opaque(ray, block.id[lane])) return counts.blocked_by(block, lane);
+    if (filter.is_opaque(ray, block.id[lane])) return note_blocker(counts, block, lane);
   }
   for (std::uint32_t rest = lanes.undecided; rest != 0; rest &= rest - 1) {
     const std::uint32_t lane = lane_of(rest);
-    if (blocks(scene, filter, ray, block.id[lane], counts)) return counts.blocked_by(block, lane);
+    if (blocks(scene, filter, ray, block.id[lane], counts)) return note_blocker(counts, block, lane);
   }
   return false;
 }
@@ -76,22 +86,29 @@ HWY_INLINE bool leaf_blocks(const SceneView& scene, const Filter& filter, const 
   return false;
 }
 
-/// Offers the leaf's possible hits; `limit` is the time beyond which nothing can come first any more.
+/// Offers the block's possible hits; `limit` is the time beyond which nothing can come first any more.
+template <class Triangles, class Counts>
+HWY_INLINE void block_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+                              const WalkRay& walk_ray, const Triangles& block, float reach, Nearest& nearest,
+                              float& limit, Counts& counts) {
+  counts.primitives(block.count);
+  const LaneBits lanes = test(block, reach, limit);
+  for (std::uint32_t rest = lanes.hit | lanes.undecided; rest != 0; rest &= rest - 1) {
+    const std::uint32_t id = block.id[lane_of(rest)];
+    if (!nearest.offer(scene, filter, ray, id, counts)) continue;
+    const double t = std::clamp(nearest.hit.t_high * walk_ray.time_scale, -kTimeLimit, kTimeLimit);
+    limit = std::min(walk_ray.tmax, std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity()));
+  }
+}
+
+/// The same for a leaf's run of blocks, which the ray leaves at `t1`.
 template <class Counts>
 HWY_INLINE void leaf_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
                              const WalkRay& walk_ray, BlockRun run, float t1, Nearest& nearest, float& limit,
                              Counts& counts) {
   const Block* block = scene.tree->blocks.data() + run.first;
-  for (const Block* const end = block + run.count; block != end; ++block) {
-    counts.primitives(block->count);
-    const LaneBits lanes = test(*block, test.reach(*block, t1), limit);
-    for (std::uint32_t rest = lanes.hit | lanes.undecided; rest != 0; rest &= rest - 1) {
-      const std::uint32_t id = block->id[lane_of(rest)];
-      if (!nearest.offer(scene, filter, ray, id, counts)) continue;
-      const double t = std::clamp(nearest.hit.t_high * walk_ray.time_scale, -kTimeLimit, kTimeLimit);
-      limit = std::min(walk_ray.tmax, std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity()));
-    }
-  }
+  for (const Block* const end = block + run.count; block != end; ++block)
+    block_closest(scene, filter, ray, test, walk_ray, *block, test.reach(*block, t1), nearest, limit, counts);
 }
 
 template <class Walk>

@@ -17,14 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, Tree& tree) {
-  Box bounds;
-  for (const std::uint32_t id : kept)
-    for (const Vec3& v : triangles[id].v) bounds.extend(v);
-  tree.eps = 0x1p-20f * bounds.largest_extent();
-  tree.root = grown(bounds, tree.eps);
-  tree.root_lanes = BoxLanes(tree.root);
-
+Cell root_cell(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, const Tree& tree) {
   Cell cell;
   cell.box = tree.root;
   cell.references.reserve(kept.size());
@@ -36,7 +29,7 @@ Cell root_cell(const std::vector<Triangle>& triangles, const std::vector<std::ui
   return cell;
 }
 
-SplitOptions split_options(const std::vector<Triangle>& triangles, std::size_t count, BuildQuality quality,
+SplitOptions split_options(ArrayView<Triangle> triangles, std::size_t count, BuildQuality quality,
                            const Executor* executor, const Tree& tree) {
   SplitOptions options;
   const bool high = quality == BuildQuality::high;
@@ -52,16 +45,32 @@ SplitOptions split_options(const std::vector<Triangle>& triangles, std::size_t c
 
 }  // namespace
 
-Tree build_tree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, BuildQuality quality,
+Tree tree_around(const Box& bounds) {
+  Tree tree;
+  if (bounds.empty()) return tree;
+  const DefaultFloatMode mode;
+  tree.scale_exponent = scale_exponent(bounds);
+  // Scaling keeps the order of floats, so these are the bounds of the scaled triangles.
+  const Triangle corners = scaled(Triangle{{bounds.lower, bounds.upper, bounds.upper}}, tree.scale_exponent);
+  const Box box{corners.v[0], corners.v[1]};
+  tree.eps = 0x1p-20f * box.largest_extent();
+  tree.root = grown(box, tree.eps);
+  tree.root_lanes = BoxLanes(tree.root);
+  return tree;
+}
+
+Tree build_tree(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, BuildQuality quality,
                 const Executor* executor, BuildStats& stats) {
   const DefaultFloatMode mode;
-  Tree tree;
+  const auto prepare_start = Clock::now();
+  Box bounds;
+  for (const std::uint32_t id : kept)
+    for (const Vec3& v : triangles[id].v) bounds.extend(v);
+  Tree tree = tree_around(bounds);
   if (kept.empty()) {
     tree.nodes.assign(2, Node::leaf(0, 0));
     return tree;
   }
-  const auto prepare_start = Clock::now();
-  tree.scale_exponent = scale_exponent(triangles, kept);
   const std::vector<Triangle> scaled_triangles = scaled(triangles, tree.scale_exponent);
   Cell root = root_cell(scaled_triangles, kept, tree);
   const SplitOptions options = split_options(scaled_triangles, kept.size(), quality, executor, tree);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/array_view.h"
 #include "tree/split.h"
 #include "tree/tree.h"
 #include "umbrix/executor.h"
@@ -10,9 +11,12 @@
 
 namespace umbrix::detail {
 
+/// The tree's box, scale and eps for triangles with these bounds; no nodes.
+Tree tree_around(const Box& bounds);
+
 /// Builds the tree over the triangles named by `kept` (non-degenerate, finite) and fills the statistics.
 /// The result depends on the triangles, their order and the quality only. Throws std::bad_alloc.
-Tree build_tree(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept, BuildQuality quality,
+Tree build_tree(ArrayView<Triangle> triangles, ArrayView<std::uint32_t> kept, BuildQuality quality,
                 const Executor* executor, BuildStats& stats);
 
 }  // namespace umbrix::detail

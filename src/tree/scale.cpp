@@ -5,10 +5,10 @@
 
 namespace umbrix::detail {
 
-int scale_exponent(const std::vector<Triangle>& triangles, const std::vector<std::uint32_t>& kept) {
+int scale_exponent(const Box& bounds) {
   float largest = 0;
-  for (const std::uint32_t id : kept)
-    for (const Vec3& v : triangles[id].v) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  for (const Vec3& v : {bounds.lower, bounds.upper})
+    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   int exponent = 0;
   std::frexp(largest, &exponent);
   return -exponent;
@@ -21,8 +21,8 @@ Triangle scaled(const Triangle& triangle, int exponent) {
   return result;
 }
 
-std::vector<Triangle> scaled(const std::vector<Triangle>& triangles, int exponent) {
-  std::vector<Triangle> result(triangles);
+std::vector<Triangle> scaled(ArrayView<Triangle> triangles, int exponent) {
+  std::vector<Triangle> result(triangles.begin(), triangles.end());
   for (Triangle& t : result) t = scaled(t, exponent);
   return result;
 }

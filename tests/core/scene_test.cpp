@@ -205,6 +205,36 @@ TEST(Scene, DropsAndCountsWhatCannotBeHit) {
   EXPECT_EQ(upper[2], 1);
 }
 
+TEST(Scene, BuildsTheTreeOnDemand) {
+  Squares squares;
+  std::vector<Ray> rays;
+  for (int i = 0; i < 4096; ++i) {
+    const float x = static_cast<float>(i % 64) / 32 - 0.5f, y = static_cast<float>(i / 64) / 32 - 0.5f;
+    rays.push_back({{x, y, 0}, 0, {0.5f - x, 0.5f - y, 3}, 1});
+  }
+  for (const TreeBuild when : {TreeBuild::on_demand, TreeBuild::at_commit}) {
+    BuildOptions options;
+    options.tree = when;
+    Scene scene;
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(scene.add(squares.view(i)).ok());
+    ASSERT_TRUE(scene.commit(options).ok());
+    const bool at_once = when == TreeBuild::at_commit;
+    EXPECT_EQ(scene.build_stats().nodes > 0, at_once);
+    EXPECT_GT(scene.build_stats().box_bytes, 0u);
+    std::vector<std::uint8_t> out(rays.size()), by_tree(rays.size());
+    scene.occluded({rays.data(), rays.size()}, out.data());
+    EXPECT_EQ(scene.build_stats().nodes > 0, at_once) << "a frame of rays to one light does without";
+    const std::uint64_t before = scene.build_stats().bytes;
+    QueryOptions standard;
+    ASSERT_TRUE(find_kernel("standard", standard.kernel).ok());
+    scene.occluded({rays.data(), rays.size()}, by_tree.data(), standard);
+    EXPECT_EQ(out, by_tree);
+    const BuildStats& stats = scene.build_stats();
+    EXPECT_GT(stats.nodes, 0u);
+    EXPECT_EQ(stats.bytes - before, at_once ? 0 : stats.node_bytes + stats.leaf_bytes);
+  }
+}
+
 TEST(Scene, RefusesBadMeshesAndStaysUsable) {
   Squares squares;
   Scene scene;

@@ -144,6 +144,7 @@ struct Pass {
     const bool committed = done(scene.add(input.mesh())) && done(scene.commit());
     if (!committed) return ask(scene, {}, true);
     ask(scene, {}, false);
+    for (std::size_t k = 0; k < kernel_count(); ++k) ask(scene, {static_cast<int>(k)}, false);  // the tree, in a query
     Training training;
     training.rays = rays();
     for (std::size_t k = 0; k < kernel_count(); ++k) {

@@ -289,6 +289,9 @@ TEST_F(FrameLife, ExecutorThatThrowsIsToldOf) {
   EXPECT_EQ(tracer.begin_frame().code(), StatusCode::invalid_argument);
 
   options.method = FrameMethod::indexed;
+  FrameOptions good;
+  good.method = FrameMethod::linked;
+  ASSERT_TRUE(tracer.start(hall_.scene, good).ok()) << "builds the tree, if no one has";
   ASSERT_TRUE(tracer.start(hall_.scene, options).ok());
   run(tracer, view(0));
   EXPECT_EQ(tracer.begin_frame(view(1)).code(), StatusCode::internal);

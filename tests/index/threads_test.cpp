@@ -75,5 +75,48 @@ TEST(Threads, ShareAFreshSceneWithEveryKernel) {
   }
 }
 
+TEST(Threads, BuildTheTreeWhenItIsNeeded) {
+  constexpr std::uint32_t kSeed = 60;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  const std::vector<Triangle> triangles = random_soup(600, 0.2f, kSeed);
+  MeshView mesh;
+  mesh.vertices = &triangles[0].v[0].x;
+  mesh.vertex_count = 3 * triangles.size();
+  mesh.triangle_count = triangles.size();
+  const std::vector<Ray> rays = rays_to_light(2000, Vec3(0.7f, 0.4f, 1.5f), kSeed + 1);
+  const RaySpan all = {rays.data(), rays.size()};
+  // By turns kernels that need it at once, the default one, for whose few rays it comes to pay, and who asks for it.
+  for (const char* const name : {"standard", "auto", "wide"}) {
+    SCOPED_TRACE(name);
+    QueryOptions options;
+    ASSERT_TRUE(find_kernel("brute", options.kernel).ok());
+    Scene scene;
+    ASSERT_TRUE(scene.add(mesh).ok());
+    ASSERT_TRUE(scene.commit().ok());
+    std::vector<std::uint8_t> truth(rays.size());
+    scene.occluded(all, truth.data(), options);
+    EXPECT_EQ(scene.build_stats().nodes, 0u);
+    ASSERT_TRUE(find_kernel(name, options.kernel).ok());
+    std::atomic<int> wrong{0};
+    std::atomic<std::uint64_t> nodes{0};
+    on_threads([&] {
+      std::uint8_t out[kBatch];
+      Hit hits[kBatch];
+      for (int repeat = 0; repeat < 2; ++repeat) {
+        for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
+          const RaySpan batch = {rays.data() + begin, kBatch};
+          scene.occluded(batch, out, options);
+          scene.closest(batch, hits, options);
+          for (std::size_t i = 0; i < kBatch; ++i) wrong += out[i] != truth[begin + i] || hits[i].valid() != out[i];
+          nodes += scene.build_stats().nodes;
+        }
+      }
+    });
+    EXPECT_EQ(wrong, 0);
+    EXPECT_GT(nodes, 0u);
+    EXPECT_GT(scene.build_stats().nodes, 0u) << "built by the rays";
+  }
+}
+
 }  // namespace
 }  // namespace umbrix::detail

@@ -43,6 +43,8 @@ void collect(const TriangleBvh& bvh, const std::vector<Triangle>& triangles, std
   }
 }
 
+constexpr float kEps = 0x1p-20f;
+
 Box everywhere() {
   Box box;
   box.lower = Vec3(-1e9f);
@@ -57,7 +59,7 @@ TEST(TriangleBvh, HoldsEachTriangleOnceWithinItsBoxes) {
     std::vector<std::uint32_t> kept;
     for (std::uint32_t i = 0; i < count; ++i)
       if (i % 5 != 3 || count < 5) kept.push_back(i);
-    const TriangleBvh bvh(triangles.data(), kept.data(), kept.size(), 0, nullptr);
+    const TriangleBvh bvh(triangles.data(), kept.data(), kept.size(), 0, kEps, nullptr);
     std::vector<std::uint32_t> ids;
     collect(bvh, triangles, 0, everywhere(), ids);
     std::sort(ids.begin(), ids.end());
@@ -68,7 +70,30 @@ TEST(TriangleBvh, HoldsEachTriangleOnceWithinItsBoxes) {
 TEST(TriangleBvh, TakesTrianglesThatAreAllTheSame) {
   const std::vector<Triangle> triangles(5000, random_soup(1, 1, 1)[0]);
   const SmallScene scene(triangles);
-  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
+  std::vector<std::uint32_t> ids;
+  collect(bvh, triangles, 0, everywhere(), ids);
+  EXPECT_EQ(ids.size(), triangles.size());
+}
+
+/// Nodes above the deepest leaf.
+std::uint32_t depth_below(const TriangleBvh& bvh, std::uint32_t index) {
+  std::uint32_t depth = 0;
+  for (const std::uint32_t child : bvh.node(index).child)
+    if ((child & BvhNode::kLeaf) == 0) depth = std::max(depth, depth_below(bvh, child));
+  return depth + 1;
+}
+
+// Each is half of the one before: every cut that pays takes off the largest alone.
+TEST(TriangleBvh, HasADeepestLeaf) {
+  std::vector<Triangle> triangles;
+  float size = 0.5f;
+  for (int i = 0; i < 120; ++i, size *= 0.5f)
+    for (int copy = 0; copy < 20; ++copy)
+      triangles.push_back({{Vec3(size, size, size), Vec3(size, 2 * size, size), Vec3(2 * size, size, size)}});
+  const SmallScene scene(triangles);
+  const TriangleBvh bvh(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
+  EXPECT_LE(depth_below(bvh, 0), kMaxBvhDepth);
   std::vector<std::uint32_t> ids;
   collect(bvh, triangles, 0, everywhere(), ids);
   EXPECT_EQ(ids.size(), triangles.size());
@@ -81,15 +106,15 @@ TEST(TriangleBvh, DoesNotDependOnTheExecutor) {
                              for (std::size_t i = count; i > 0; --i) body(data, i - 1);
                            },
                            nullptr};
-  const TriangleBvh one(triangles.data(), scene.kept.data(), scene.kept.size(), 0, &backwards);
-  const TriangleBvh other(triangles.data(), scene.kept.data(), scene.kept.size(), 0, nullptr);
+  const TriangleBvh one(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, &backwards);
+  const TriangleBvh other(triangles.data(), scene.kept.data(), scene.kept.size(), 0, kEps, nullptr);
   std::vector<std::uint32_t> a, b;
   collect(one, triangles, 0, everywhere(), a);
   collect(other, triangles, 0, everywhere(), b);
   EXPECT_EQ(a, b);
 }
 
-TEST(TriangleBvh, IsEmptyWithoutTriangles) { EXPECT_TRUE(TriangleBvh(nullptr, nullptr, 0, 0, nullptr).empty()); }
+TEST(TriangleBvh, IsEmptyWithoutTriangles) { EXPECT_TRUE(TriangleBvh(nullptr, nullptr, 0, 0, kEps, nullptr).empty()); }
 
 }  // namespace
 }  // namespace umbrix::detail
