@@ -10,6 +10,7 @@
 
 #include "kernels/batch-inl.h"
 #include "kernels/light_trace-inl.h"
+#include "kernels/shaft_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -22,7 +23,8 @@ struct AutoKernel {
   static void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
     for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
       const GroupRays group{part, out + begin, here.skip, here.mask};
-      if (!trace<NoCounts>(scene, group)) Others::occluded(scene, part, out + begin, here);
+      if (!trace_shafts(scene, group) && !trace<NoCounts>(scene, group))
+        Others::occluded(scene, part, out + begin, here);
     });
   }
 
@@ -44,6 +46,17 @@ struct AutoKernel {
   template <class Counts>
   static bool trace(const SceneView& scene, const GroupRays& rays) {
     return scene.side && LightTrace<Counts>(scene, *static_cast<const LightViewTable*>(scene.side)).trace(rays);
+  }
+
+  static bool trace_shafts(const SceneView& scene, const GroupRays& rays) {
+    if (!scene.side) return false;
+    return ShaftTrace(scene, *static_cast<const LightViewTable*>(scene.side))
+        .trace(rays, [&](std::size_t first, std::size_t count) {
+          QueryOptions options;
+          options.mask = rays.mask;
+          options.skip = rays.skip ? rays.skip + first : nullptr;
+          Others::occluded(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
+        });
   }
 
   template <class Each>

@@ -11,7 +11,6 @@
 
 #include <hwy/highway.h>
 
-#include <cstring>
 #include <limits>
 
 #include "kernels/group_rays.h"
@@ -95,55 +94,23 @@ class LightRays {
   }
 
   void read_run(std::size_t begin, std::uint32_t count) {
-    const RayTag f;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
-    for (std::uint32_t i = 0; i < count; i += step) {
-      const std::uint32_t here = std::min(step, count - i);
-      alignas(64) Ray copies[kRowLanes];
-      const float* values = reinterpret_cast<const float*>(&rays_[begin + i]);
-      if (rays_.stride != sizeof(Ray) || here < step) {
-        std::memset(static_cast<void*>(copies), 0, sizeof copies);
-        for (std::uint32_t k = 0; k < here; ++k) copies[k] = rays_[begin + i + k];
-        values = reinterpret_cast<const float*>(copies);
-      }
-      read_lanes(values, begin + i, here);
-    }
+    const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
+    for (std::uint32_t i = 0; i < count; i += step)
+      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i));
   }
 
-  HWY_INLINE void read_lanes(const float* values, std::size_t first, std::uint32_t here) {
+  HWY_INLINE void read_lanes(const RayFields& r, std::size_t first, std::uint32_t here) {
     const RayTag f;
     const RayBitsTag n;
-    [[maybe_unused]] const auto step = hn::Lanes(f);
-    RayVec o[3], d[3], tmin, tmax;
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t k = 0; k < 3; ++k) {
-      o[k] = hn::LoadU(f, values + k);
-      d[k] = hn::LoadU(f, values + 4 + k);
-    }
-    tmin = hn::LoadU(f, values + 3);
-    tmax = hn::LoadU(f, values + 7);
-#else
-    {
-      RayVec a0, a1, a2, a3, b0, b1, b2, b3;  // origin and direction of a ray by turns
-      hn::LoadInterleaved4(f, values, a0, a1, a2, a3);
-      hn::LoadInterleaved4(f, values + 4 * step, b0, b1, b2, b3);
-      o[0] = hn::ConcatEven(f, b0, a0);
-      o[1] = hn::ConcatEven(f, b1, a1);
-      o[2] = hn::ConcatEven(f, b2, a2);
-      tmin = hn::ConcatEven(f, b3, a3);
-      d[0] = hn::ConcatOdd(f, b0, a0);
-      d[1] = hn::ConcatOdd(f, b1, a1);
-      d[2] = hn::ConcatOdd(f, b2, a2);
-      tmax = hn::ConcatOdd(f, b3, a3);
-    }
-#endif
     const auto zero = hn::Zero(f), scale = hn::Set(f, scale_);
     auto off = zero, start_reach = zero, direction = zero, sum = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      direction = hn::Max(direction, hn::Abs(d[k]));
-      const auto origin = hn::Sub(hn::MulSub(o[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
-      const auto to_start = hn::Mul(hn::Mul(d[k], tmin), scale), to_end = hn::Mul(hn::Mul(d[k], tmax), scale);
+      direction = hn::Max(direction, hn::Abs(r.direction[k]));
+      const auto origin =
+          hn::Sub(hn::MulSub(r.origin[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
+      const auto to_start = hn::Mul(hn::Mul(r.direction[k], r.tmin), scale),
+                 to_end = hn::Mul(hn::Mul(r.direction[k], r.tmax), scale);
       const auto end = hn::Abs(hn::Add(origin, to_end));
       off = hn::Max(off, end);
       start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
@@ -161,7 +128,7 @@ class LightRays {
     const auto end_error = hn::Mul(reach, w);
     auto good = hn::And(hn::Lt(end_error, hn::Set(f, 0x1p-17f)), between(depth, 0x1p-30f, 0x1p20f));
     good = hn::And(good, hn::Lt(sum, hn::Set(f, 0x1p23f)));
-    good = hn::And(good, hn::And(hn::Lt(tmin, tmax), between(direction, 0x1p-90f, 0x1p30f)));
+    good = hn::And(good, hn::And(hn::Lt(r.tmin, r.tmax), between(direction, 0x1p-90f, 0x1p30f)));
     const auto present = hn::FirstN(f, here);
     const auto keep = hn::And(good, present);
     for (std::uint32_t rest = ray_bits(hn::AndNot(good, present)); rest != 0; rest &= rest - 1)
@@ -173,7 +140,7 @@ class LightRays {
     };
     raise(end_errors_, end_error, keep);
     raise(most_errors_, reach, keep);
-    const auto moved = hn::AndNot(hn::Eq(tmin, zero), keep);
+    const auto moved = hn::AndNot(hn::Eq(r.tmin, zero), keep);
     if (!hn::AllFalse(f, moved)) {
       const auto error = hn::Mul(start_reach, hn::Set(f, 0x1p-22f));
       raise(start_errors_, hn::Mul(error, w), moved);

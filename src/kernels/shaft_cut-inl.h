@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sixteen bundles in a row are cut into shafts: where their starts are far apart compared with their ends, as across
+// the edge of a thing, in the middle of the starts' longest side.
+
+#if defined(UMBRIX_KERNELS_SHAFT_CUT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_SHAFT_CUT_INL_H_
+#undef UMBRIX_KERNELS_SHAFT_CUT_INL_H_
+#else
+#define UMBRIX_KERNELS_SHAFT_CUT_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "core/math.h"
+#include "kernels/ray_lanes-inl.h"
+#include "kernels/shaft.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+class ShaftCutter {
+ public:
+  ShaftCutter(const std::vector<RayBundle>& bundles, std::vector<Shaft>& shafts) : bundles_(bundles), shafts_(shafts) {}
+
+  /// Cuts the bundles of a row, of which there are `count`.
+  void cut_row(std::uint32_t row, std::uint32_t count) {
+    row_ = row;
+    for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
+      const RayBundle& b = bundle(lane < count ? lane : 0);
+      for (std::uint32_t k = 0; k < 3; ++k) starts_[k][lane] = b.start[k];
+    }
+    cut((1u << count) - 1);
+  }
+
+ private:
+  const RayBundle& bundle(std::uint32_t lane) const { return bundles_[row_ * kRowLanes + lane]; }
+
+  void cut(std::uint32_t lanes) {
+    Shaft s;
+    s.row = row_;
+    s.lanes = lanes;
+    bound(s);
+    std::uint32_t axis = 0;
+    float widest = 0, ends = 0, length = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const float width = s.start_high[k] - s.start_low[k];
+      if (width > widest) {
+        widest = width;
+        axis = k;
+      }
+      ends = std::max(ends, s.end_high[k] - s.end_low[k]);
+      length += std::abs(s.end_low[k] - s.start_low[k]);
+    }
+    if (widest > kWidth * ends + kSlope * length) {
+      const std::uint32_t low = below(axis, 0.5f * (s.start_low[axis] + s.start_high[axis])) & lanes;
+      if (low != 0 && low != lanes) {
+        cut(low);
+        cut(lanes & ~low);
+        return;
+      }
+    }
+    find_plane(s);
+    shafts_.push_back(s);
+  }
+
+  void bound(Shaft& s) const {
+    const RayTag f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    RayVec start_low[3], start_high[3], end_low[3], end_high[3];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      start_low[k] = end_low[k] = infinity;
+      start_high[k] = end_high[k] = hn::Neg(infinity);
+      for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+        const auto use = lane_mask(s.lanes >> i);
+        const auto x = hn::Load(f, starts_[k] + i);
+        start_low[k] = hn::Min(start_low[k], hn::IfThenElse(use, x, infinity));
+        start_high[k] = hn::Max(start_high[k], hn::IfThenElse(use, x, hn::Neg(infinity)));
+      }
+    }
+    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
+      const RayBundle& b = bundle(first_lane(rest));
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto start = hn::Set(f, b.start[k]);
+        for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+          const auto end = hn::Add(start, hn::Load(f, b.far[k] + i));
+          end_low[k] = hn::Min(end_low[k], end);
+          end_high[k] = hn::Max(end_high[k], end);
+        }
+      }
+    }
+    s.largest = 1;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      s.start_low[k] = hn::GetLane(hn::MinOfLanes(f, start_low[k]));
+      s.start_high[k] = hn::GetLane(hn::MaxOfLanes(f, start_high[k]));
+      s.end_low[k] = hn::GetLane(hn::MinOfLanes(f, end_low[k]));
+      s.end_high[k] = hn::GetLane(hn::MaxOfLanes(f, end_high[k]));
+      s.middle[k] = 0.5f * (s.start_low[k] + s.start_high[k]);
+      s.largest = std::max({s.largest, -s.start_low[k], s.start_high[k], -s.end_low[k], s.end_high[k]});
+    }
+  }
+
+  /// Of the row's starts, those below x on an axis.
+  std::uint32_t below(std::uint32_t axis, float x) const {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
+      result |= ray_bits(hn::Lt(hn::Load(f, starts_[axis] + i), hn::Set(f, x))) << i;
+    return result;
+  }
+
+  /// A plane through three starts that are far apart, below all starts and ends; towards the ends if there is none.
+  void find_plane(Shaft& s) const {
+    Vec3 to_end, offset[kRowLanes];
+    for (int k = 0; k < 3; ++k) to_end[k] = 0.5f * (s.end_low[k] + s.end_high[k]) - s.middle[k];
+    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
+      const std::uint32_t lane = first_lane(rest);
+      for (std::uint32_t k = 0; k < 3; ++k) offset[lane][static_cast<int>(k)] = starts_[k][lane] - s.middle[k];
+    }
+    const Vec3 first = offset[first_lane(s.lanes)];
+    Vec3 side(0), normal(0);
+    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
+      const Vec3 d = offset[first_lane(rest)] - first;
+      if (glm::dot(d, d) > glm::dot(side, side)) side = d;
+    }
+    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
+      const Vec3 n = glm::cross(side, offset[first_lane(rest)] - first);
+      if (glm::dot(n, n) > glm::dot(normal, normal)) normal = n;
+    }
+    const auto sum = [](const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); };
+    if (!(sum(normal) > 0x1p-80f)) normal = to_end;
+    if (!(sum(normal) > 0x1p-80f)) normal = Vec3(1, 0, 0);
+    normal *= (glm::dot(normal, to_end) < 0 ? -1.0f : 1.0f) / sum(normal);
+
+    float base = std::numeric_limits<float>::infinity();
+    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1)
+      base = std::min(base, glm::dot(normal, offset[first_lane(rest)]));
+    float ends = -0x1p-20f * s.largest;
+    for (int k = 0; k < 3; ++k)
+      ends += std::min(normal[k] * (s.end_low[k] - s.middle[k]), normal[k] * (s.end_high[k] - s.middle[k]));
+    s.base = std::min(base, ends);
+    for (int k = 0; k < 3; ++k) s.normal[k] = normal[k];
+  }
+
+  /// How wide the starts of a shaft may be, compared with its ends and with its length.
+  static constexpr float kWidth = 0.5f, kSlope = 0.02f;
+
+  const std::vector<RayBundle>& bundles_;
+  std::vector<Shaft>& shafts_;
+  std::uint32_t row_ = 0;
+  alignas(64) float starts_[3][kRowLanes];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

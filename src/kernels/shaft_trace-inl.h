@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that leave points in bundles: read into shafts, one walk for all shafts of a batch, bundles against what their
+// shaft may meet. What the bounds leave open goes to the exact test.
+
+#if defined(UMBRIX_KERNELS_SHAFT_TRACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_SHAFT_TRACE_INL_H_
+#undef UMBRIX_KERNELS_SHAFT_TRACE_INL_H_
+#else
+#define UMBRIX_KERNELS_SHAFT_TRACE_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include "core/float_mode.h"
+#include "kernels/light_view.h"
+#include "kernels/shaft_bundles-inl.h"
+#include "kernels/shaft_cut-inl.h"
+#include "kernels/shaft_packets-inl.h"
+#include "kernels/shaft_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// Answers the bundles of shafts from what they may meet.
+class ShaftPackets {
+ public:
+  ShaftPackets(const SceneView& scene, const GroupRays& rays, const TriangleBvh& bvh, ShaftScratch& scratch)
+      : scene_(scene),
+        rays_(rays),
+        bvh_(bvh),
+        scratch_(scratch),
+        filter_(scene, rays.mask),
+        plain_(!rays.skip && filter_.passes_all()) {}
+
+  void trace() {
+    sort_meetings();
+    for (std::uint32_t i = 0; i < scratch_.shafts.size(); ++i)
+      if (scratch_.counts[i] != scratch_.counts[i + 1])
+        trace_shaft(scratch_.shafts[i], scratch_.counts[i], scratch_.counts[i + 1]);
+  }
+
+ private:
+  void sort_meetings() {
+    auto& counts = scratch_.counts;
+    counts.assign(scratch_.shafts.size() + 2, 0);
+    for (const ShaftMeeting& m : scratch_.meetings) ++counts[m.shaft + 2];
+    for (std::size_t i = 2; i < counts.size(); ++i) counts[i] += counts[i - 1];
+    scratch_.sorted.resize(scratch_.meetings.size());
+    for (const ShaftMeeting& m : scratch_.meetings) scratch_.sorted[counts[m.shaft + 1]++] = m;
+  }
+
+  void trace_shaft(const Shaft& shaft, std::uint32_t first, std::uint32_t last) {
+    list_.clear();
+    open_ = shaft.lanes;
+    for (std::uint32_t i = first; i < last && open_ != 0; ++i) {
+      list_.add(bvh_.rows(scratch_.sorted[i].rows), scratch_.sorted[i].lanes);
+      if (list_.is_full()) meet_list(shaft);
+    }
+    if (list_.count() != 0) meet_list(shaft);
+  }
+
+  /// Tests the bundles of a shaft that are not blocked yet, and empties the list.
+  void meet_list(const Shaft& shaft) {
+    float radius = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) radius += shaft.start_high[k] - shaft.start_low[k];
+    list_.prepare(shaft.middle, radius);
+    favourite_ = 0;
+    for (std::uint32_t rest = open_; rest != 0; rest &= rest - 1) {
+      const std::uint32_t lane = first_lane(rest);
+      if (meet_bundle(scratch_.bundles[shaft.row * kRowLanes + lane])) open_ &= ~(1u << lane);
+    }
+    list_.clear();
+  }
+
+  /// Returns whether all rays are blocked.
+  bool meet_bundle(const RayBundle& bundle) {
+    const BundleView view(bundle);
+    blocked_ = ~((1u << bundle.count) - 1) & 0xFFFF;
+    unsure_count_ = 0;
+    std::uint8_t* const out = rays_.out + bundle.first;
+    const std::uint32_t rows = list_.rows();
+    for (std::uint32_t i = 0; i < rows && blocked_ != 0xFFFF; ++i) {
+      // What blocked the bundle before comes first.
+      const std::uint32_t row = i == 0 ? favourite_ : i <= favourite_ ? i - 1 : i;
+      meet_row(view, row);
+      if (blocked_ == 0xFFFF) favourite_ = row;
+    }
+    for (std::uint32_t i = 0; i < unsure_count_; ++i) decide(bundle, unsure_[i].id, unsure_[i].lanes);
+    for (std::uint32_t rest = blocked_ & ((1u << bundle.count) - 1); rest != 0; rest &= rest - 1)
+      out[first_lane(rest)] = 1;
+    return blocked_ == 0xFFFF;
+  }
+
+  HWY_INLINE void meet_row(const BundleView& view, std::uint32_t row) {
+    const std::uint32_t first = row * kRowLanes, here = std::min(list_.count() - first, kRowLanes);
+    SeenLanes seen = view.look(list_, first, seen_);
+    seen.met &= (1u << here) - 1;
+    if (seen.met == 0) return;
+    if (plain_ && (seen.blocks & seen.met) != 0 && !view.bundle().has_begin) {
+      blocked_ = 0xFFFF;
+      return;
+    }
+    for (std::uint32_t rest = seen.met; rest != 0; rest &= rest - 1) {
+      const std::uint32_t lane = first_lane(rest);
+      const RayHits hits = meet(seen_, lane, (seen.edge_on >> lane & 1) != 0, view.bundle());
+      if ((hits.hit | hits.unsure) == 0) continue;
+      if (HWY_LIKELY(plain_)) {
+        blocked_ |= hits.hit;
+        if (blocked_ == 0xFFFF) return;
+      } else {
+        admit(view.bundle(), list_.id(first + lane), hits.hit & ~blocked_);
+      }
+      if (HWY_UNLIKELY((hits.unsure & ~blocked_) != 0)) note_unsure(view.bundle(), list_.id(first + lane), hits.unsure);
+    }
+  }
+
+  /// Other triangles may yet block these rays for certain.
+  void note_unsure(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
+    if (unsure_count_ == kMostUnsure)
+      decide(bundle, id, lanes);
+    else
+      unsure_[unsure_count_++] = {id, lanes};
+  }
+
+  HWY_NOINLINE void decide(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
+    NoCounts none;
+    for (std::uint32_t rest = lanes & ~blocked_; rest != 0; rest &= rest - 1) {
+      const std::size_t i = bundle.first + first_lane(rest);
+      if (rays_.skip) filter_.set_skip(rays_.skip[i]);
+      if (blocks(scene_, filter_, rays_.rays[i], id, none)) blocked_ |= rest & (0u - rest);
+    }
+  }
+
+  HWY_NOINLINE void admit(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
+    for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+      const std::size_t i = bundle.first + first_lane(rest);
+      if (rays_.skip) filter_.set_skip(rays_.skip[i]);
+      if (filter_.admits(id) && filter_.is_opaque(rays_.rays[i], id)) blocked_ |= rest & (0u - rest);
+    }
+  }
+
+  struct Unsure {
+    std::uint32_t id, lanes;
+  };
+  static constexpr std::uint32_t kMostUnsure = 32;
+
+  const SceneView& scene_;
+  const GroupRays& rays_;
+  const TriangleBvh& bvh_;
+  ShaftScratch& scratch_;
+  Filter filter_;
+  bool plain_;
+  std::uint32_t open_ = 0, blocked_ = 0, favourite_ = 0;
+  Unsure unsure_[kMostUnsure];
+  std::uint32_t unsure_count_ = 0;
+  TriangleList list_;
+  SeenTriangles seen_;
+};
+
+/// One call's rays.
+class ShaftTrace {
+ public:
+  ShaftTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
+
+  /// Answers all rays, those that are not for it by other(first, count). False, with nothing done, if there are few,
+  /// they do not come in bundles, or there is no memory.
+  template <class Other>
+  bool trace(const GroupRays& rays, Other&& other) {
+    if (rays.rays.count < kFewestRays || table_.bvh().empty()) return false;
+    if (std::abs(scene_.tree->scale_exponent) > kMostScale || !comes_in_bundles(rays.rays)) return false;
+    const DefaultFloatMode mode;
+    try {
+      ShaftScratch scratch;
+      scratch.bundles.resize(kBatchBundles);
+      const BundleReader reader(*scene_.tree, rays.rays);
+      ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
+      ShaftWalk walk(table_.bvh(), scratch);
+      std::memset(rays.out, 0, rays.rays.count);
+      for (std::size_t next = 0; next < rays.rays.count;) {
+        const std::size_t first = next;
+        std::uint32_t count = 0;
+        while (count < kBatchBundles && next < rays.rays.count) {
+          RayBundle& b = scratch.bundles[count];
+          const bool is_good = reader.read(next, b);
+          next += b.count;
+          if (is_good)
+            ++count;
+          else
+            other(b.first, b.count);
+        }
+        scratch.shafts.clear();
+        ShaftCutter cutter(scratch.bundles, scratch.shafts);
+        for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
+          cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
+        if (count == 0) continue;
+        if (!walk.walk(kMostMet * count)) {
+          other(first, next - first);
+          continue;
+        }
+        packets.trace();
+      }
+      return true;
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+  }
+
+ private:
+  static constexpr std::size_t kFewestRays = 64;
+  static constexpr int kMostScale = 60;
+  static constexpr std::size_t kMostMet = 64;
+
+  /// Are there mostly runs of the same start?
+  static bool comes_in_bundles(const RaySpan& rays) {
+    constexpr std::size_t kSamples = 32;
+    std::size_t alike = 0;
+    for (std::size_t sample = 0; sample < kSamples; ++sample) {
+      const std::size_t i = sample * (rays.count - 1) / kSamples;
+      const float *a = rays[i].origin, *b = rays[i + 1].origin;
+      alike += a[0] == b[0] && a[1] == b[1] && a[2] == b[2] ? 1 : 0;
+    }
+    return 4 * alike >= 3 * kSamples;
+  }
+
+  const SceneView& scene_;
+  const LightViewTable& table_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif

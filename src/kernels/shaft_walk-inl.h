@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// One walk of the hierarchy for all shafts of a batch. A shaft is the hull of two boxes (Haines & Wallace 1991, "Shaft
+// culling for efficient ray-traced radiosity"), the union of the boxes in between: it meets a box if at some time u in
+// [0, 1] the box in between does, on all axes. Shafts have a margin of 2^-19 of their largest coordinate, 32 roundings:
+// ends take 2, lines 4, times 3.
+
+#if defined(UMBRIX_KERNELS_SHAFT_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_SHAFT_WALK_INL_H_
+#undef UMBRIX_KERNELS_SHAFT_WALK_INL_H_
+#else
+#define UMBRIX_KERNELS_SHAFT_WALK_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "kernels/ray_lanes-inl.h"
+#include "kernels/shaft.h"
+#include "kernels/shaft_test-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// Finds the triangles that shafts may meet.
+class ShaftWalk {
+ public:
+  ShaftWalk(const TriangleBvh& bvh, ShaftScratch& scratch) : bvh_(bvh), scratch_(scratch) {}
+
+  /// Fills the scratch's meetings; false if there are more than `most` of them.
+  bool walk(std::size_t most) {
+    most_ = most;
+    lay_out();
+    scratch_.meetings.clear();
+    auto& lists = scratch_.lists;
+    lists.clear();
+    const std::size_t count = scratch_.shafts.size();
+    for (std::size_t first = 0; first < count; first += kRowLanes) {
+      const std::size_t lanes = std::min<std::size_t>(kRowLanes, count - first);
+      lists.push_back(first / kRowLanes << 32 | ((1u << lanes) - 1));
+    }
+    visit(0, 0, lists.size(), lists.size());
+    return scratch_.meetings.size() <= most_;
+  }
+
+ private:
+  void lay_out() {
+    const std::size_t count = scratch_.shafts.size();
+    scratch_.rows.resize((count + kRowLanes - 1) / kRowLanes);
+    tests_.clear();
+    for (std::size_t i = 0; i < scratch_.rows.size() * kRowLanes; ++i) {
+      const std::size_t lane = i % kRowLanes;
+      ShaftRows& rows = scratch_.rows[i / kRowLanes];
+      if (lane == 0)
+        for (auto& side : rows.rises) std::fill(side, side + 3, 0u);
+      const Shaft& s = scratch_.shafts[i < count ? i : 0];
+      if (i < count) tests_.emplace_back(s);
+      const float margin = 0x1p-19f * s.largest;
+      float base = s.base - 4 * margin;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const ShaftLine lines[2] = {{s.start_low[k] - margin, s.end_low[k] - margin},
+                                    {s.start_high[k] + margin, s.end_high[k] + margin}};
+        for (std::uint32_t side = 0; side < 2; ++side) {
+          rows.inverse[side][k][lane] = lines[side].inverse;
+          rows.offset[side][k][lane] = lines[side].offset;
+          rows.rises[side][k] |= (lines[side].rises ? 1u : 0u) << lane;
+        }
+        rows.normal[k][lane] = s.normal[k];
+        base += s.normal[k] * s.middle[k];
+      }
+      rows.base[lane] = base;
+    }
+  }
+
+  /// Shafts of a row that meet a child's box.
+  HWY_INLINE std::uint32_t meeting(const ShaftRows& rows, const BvhNode& node, std::uint32_t child) const {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto t0 = hn::Zero(f), t1 = hn::Set(f, 1.0f), above = hn::Zero(f);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto lower = hn::Set(f, node.lower[k][child]), upper = hn::Set(f, node.upper[k][child]);
+        const auto low = hn::MulAdd(upper, hn::Load(f, rows.inverse[0][k] + i), hn::Load(f, rows.offset[0][k] + i));
+        const auto high = hn::MulAdd(lower, hn::Load(f, rows.inverse[1][k] + i), hn::Load(f, rows.offset[1][k] + i));
+        const auto low_rises = lane_mask(rows.rises[0][k] >> i), high_rises = lane_mask(rows.rises[1][k] >> i);
+        t1 = hn::IfThenElse(low_rises, hn::Min(t1, low), t1);
+        t0 = hn::IfThenElse(low_rises, t0, hn::Max(t0, low));
+        t0 = hn::IfThenElse(high_rises, hn::Max(t0, high), t0);
+        t1 = hn::IfThenElse(high_rises, t1, hn::Min(t1, high));
+        const auto n = hn::Load(f, rows.normal[k] + i);
+        above = hn::Add(above, hn::Max(hn::Mul(n, lower), hn::Mul(n, upper)));
+      }
+      result |= ray_bits(hn::And(hn::Le(t0, t1), hn::Ge(above, hn::Load(f, rows.base + i)))) << i;
+    }
+    return result;
+  }
+
+  /// `first` and `count` name entries of the lists, a row of shafts and lanes of it; from `top` on there is room.
+  void visit(std::uint32_t index, std::size_t first, std::size_t count, std::size_t top) {
+    const BvhNode& node = bvh_.node(index);
+    auto& lists = scratch_.lists;
+    if (lists.size() < top + kBvhWidth * count) lists.resize(2 * (top + kBvhWidth * count));
+    std::size_t ends[kBvhWidth];
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child) ends[child] = top + child * count;
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto row = static_cast<std::uint32_t>(lists[i] >> 32), lanes = static_cast<std::uint32_t>(lists[i]);
+      for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+        const std::uint32_t met = lanes & meeting(scratch_.rows[row], node, child);
+        if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
+      }
+    }
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child)
+      if (ends[child] != top + child * count) prefetch(node.child[child]);
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+      const std::size_t list = top + child * count;
+      if (ends[child] == list) continue;
+      if (scratch_.meetings.size() > most_) return;
+      const std::uint32_t next = node.child[child];
+      if (next & BvhNode::kLeaf)
+        visit_rows(next & ~BvhNode::kLeaf, list, ends[child] - list);
+      else
+        visit(next, list, ends[child] - list, top + kBvhWidth * count);
+    }
+  }
+
+  void prefetch(std::uint32_t child) const {
+    if ((child & BvhNode::kLeaf) == 0) {
+      hwy::Prefetch(&bvh_.node(child));
+      hwy::Prefetch(reinterpret_cast<const char*>(&bvh_.node(child)) + 64);
+      return;
+    }
+    const TriangleRows& rows = bvh_.rows(child & ~BvhNode::kLeaf);
+    for (std::size_t line = 0; line < sizeof rows; line += 64)
+      hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
+  }
+
+  void visit_rows(std::uint32_t place, std::size_t first, std::size_t count) {
+    const TriangleRows& rows = bvh_.rows(place);
+    const std::uint32_t all = (1u << rows.count) - 1;
+    for (std::size_t i = first; i < first + count; ++i) {
+      const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
+      for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
+        const std::uint32_t shaft = row * kRowLanes + first_lane(rest);
+        const std::uint32_t met = all & tests_[shaft](rows);
+        if (met != 0) scratch_.meetings.push_back({shaft, place, met});
+      }
+    }
+  }
+
+  const TriangleBvh& bvh_;
+  ShaftScratch& scratch_;
+  std::vector<ShaftTest> tests_;
+  std::size_t most_ = 0;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
