@@ -20,6 +20,7 @@
 
 #include "kernels/group_rays.h"
 #include "kernels/ray_lanes-inl.h"
+#include "kernels/ray_raster-inl.h"
 #include "kernels/shaft.h"
 #include "kernels/shaft_list-inl.h"
 
@@ -44,22 +45,7 @@ struct SeenLanes {
 /// A bundle's rays side by side.
 class BundleView {
  public:
-  explicit BundleView(const RayBundle& b) : bundle_(b) {
-    const RayTag f;
-    length_ = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      auto low = hn::Load(f, b.far[k]), high = low;
-      for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
-           i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-        low = hn::Min(low, hn::Load(f, b.far[k] + i));
-        high = hn::Max(high, hn::Load(f, b.far[k] + i));
-      }
-      const float least = hn::GetLane(hn::MinOfLanes(f, low)), most = hn::GetLane(hn::MaxOfLanes(f, high));
-      middle_[k] = 0.5f * (least + most);
-      half_[k] = 0.5f * (most - least);
-      length_ += std::max(-least, most);
-    }
-  }
+  explicit BundleView(const RayBundle& b) : BundleView(b, Box3(b)) {}
 
   /// Which of sixteen triangles from `first` on the rays may meet; of these `out` is filled.
   HWY_INLINE SeenLanes look(const TriangleList& list, std::uint32_t first, SeenTriangles& out) const {
@@ -71,9 +57,30 @@ class BundleView {
   }
 
   const RayBundle& bundle() const { return bundle_; }
-  float length() const { return length_; }
 
  private:
+  struct Box3 {
+    explicit Box3(const RayBundle& b) {
+      const RayTag f;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        auto low = hn::Load(f, b.far[k]), high = low;
+        for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
+             i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+          low = hn::Min(low, hn::Load(f, b.far[k] + i));
+          high = hn::Max(high, hn::Load(f, b.far[k] + i));
+        }
+        const float least = hn::GetLane(hn::MinOfLanes(f, low)), most = hn::GetLane(hn::MaxOfLanes(f, high));
+        middle[k] = 0.5f * (least + most);
+        half[k] = 0.5f * (most - least);
+        length += std::max(-least, most);
+      }
+    }
+    float middle[3], half[3];
+    float length = 0;  ///< no ray is longer, as a 1-norm
+  };
+
+  BundleView(const RayBundle& b, const Box3& box) : bundle_(b), box_(box), raster_(b, box.middle) {}
+
   HWY_INLINE void look_at(const TriangleList& list, std::uint32_t place, std::uint32_t i, SeenTriangles& out,
                           SeenLanes& result) const {
     const RayTag f;
@@ -84,18 +91,23 @@ class BundleView {
       const auto start = hn::Set(f, bundle_.start[k]);
       for (std::uint32_t vertex = 0; vertex < 3; ++vertex)
         offset[vertex][k] = hn::Sub(list.vertex(vertex, k, place), start);
+    }
+    const RayBitsTag n;
+    const auto passed = hn::RebindMask(f, hn::Ne(raster_.passing(offset), hn::Zero(n)));
+    if (hn::AllFalse(f, passed)) return;
+    for (std::uint32_t k = 0; k < 3; ++k) {
       normal[k] = list.normal(k, place);
       plane = hn::MulAdd(normal[k], offset[0][k], plane);
-      end = hn::MulAdd(normal[k], hn::Set(f, middle_[k]), end);
-      end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, half_[k]), end_off);
+      end = hn::MulAdd(normal[k], hn::Set(f, box_.middle[k]), end);
+      end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, box_.half[k]), end_off);
     }
-    const auto reach = list.reach(place), length = hn::Set(f, length_);
+    const auto reach = list.reach(place), length = hn::Set(f, box_.length);
     const auto known = hn::Gt(hn::Abs(plane), hn::MulAdd(reach, hn::Set(f, kPlaneError), hn::Set(f, kTiny)));
     const auto sign = hn::IfThenElseZero(known, hn::And(plane, negative));
-    const auto edge_error = hn::MulAdd(list.size(place), hn::Set(f, kEdgeError * length_), hn::Set(f, kTiny));
+    const auto edge_error = hn::MulAdd(list.size(place), hn::Set(f, kEdgeError * box_.length), hn::Set(f, kTiny));
     const auto plane_error = hn::MulAdd(hn::Add(reach, length), hn::Set(f, kPlaneError), hn::Set(f, kTiny));
     const auto before = hn::Sub(hn::Xor(end, sign), hn::Abs(plane));
-    const auto open = hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error)));
+    const auto open = hn::And(passed, hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error))));
     if (hn::AllFalse(f, open)) return;
 
     auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), least_low = least_high;
@@ -107,8 +119,8 @@ class BundleView {
         const auto x =
             hn::MulSub(offset[e][k1], list.edge(e, k2, place), hn::Mul(offset[e][k2], list.edge(e, k1, place)));
         edge[e][k] = hn::Xor(x, sign);
-        middle = hn::MulAdd(edge[e][k], hn::Set(f, middle_[k]), middle);
-        off = hn::MulAdd(hn::Abs(x), hn::Set(f, half_[k]), off);
+        middle = hn::MulAdd(edge[e][k], hn::Set(f, box_.middle[k]), middle);
+        off = hn::MulAdd(hn::Abs(x), hn::Set(f, box_.half[k]), off);
       }
       least_high = hn::Min(least_high, hn::Add(middle, off));
       least_low = hn::Min(least_low, hn::Sub(middle, off));
@@ -136,8 +148,8 @@ class BundleView {
   static constexpr float kTiny = 0x1p-100f;
 
   const RayBundle& bundle_;
-  float middle_[3], half_[3];
-  float length_;  ///< no ray is longer, as a 1-norm
+  Box3 box_;
+  RayRaster raster_;
 };
 
 /// Lanes of a bundle's rays.
