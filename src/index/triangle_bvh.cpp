@@ -4,6 +4,7 @@
 #include "index/triangle_bvh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -184,6 +185,15 @@ Vec3 unit_normal(const Triangle& t) {
   return Vec3(n / length);
 }
 
+float longest_edge(const Triangle& t) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const DVec3 edge = DVec3(t.v[(i + 1) % 3]) - DVec3(t.v[i]);
+    square = std::max(square, glm::dot(edge, edge));
+  }
+  return static_cast<float>(std::sqrt(square)) * (1 + 0x1p-20f);
+}
+
 class Builder {
  public:
   Builder(const Triangle* triangles, int exponent, std::vector<Reference>& references)
@@ -256,6 +266,7 @@ class Builder {
       rows.id[lane] = id;
       for (int vertex = 0; vertex < 3; ++vertex)
         for (int axis = 0; axis < 3; ++axis) rows.v[vertex][axis][lane] = t.v[vertex][axis];
+      rows.longest[lane] = longest_edge(t);
       const Vec3 normal = unit_normal(t);
       for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = normal[axis];
     }

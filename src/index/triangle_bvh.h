@@ -18,6 +18,7 @@ inline constexpr std::uint32_t kBvhWidth = 4;
 struct alignas(64) TriangleRows {
   float v[3][3][kRowLanes];    ///< by vertex and axis
   float normal[3][kRowLanes];  ///< of length 1, each coordinate within one unit in the last place; 0 if not known
+  float longest[kRowLanes];    ///< edge, or a little more
   std::uint32_t id[kRowLanes];
   std::uint32_t count;
 };

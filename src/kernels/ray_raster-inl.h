@@ -23,17 +23,17 @@ namespace HWY_NAMESPACE {
 
 using RayInts = hn::Vec<RayBitsTag>;
 
-/// One side of the picture, in columns: 0 is before all rays, 16 behind them.
+/// One side of the picture, in columns: rays are in 1 to 15.
 class RasterAxis {
  public:
   HWY_INLINE void set(const float (&places)[kRowLanes], float low, float high) {
     const RayTag f;
     const RayBitsTag n;
     low_ = low;
-    scale_ = 14.9f / std::max(high - low, 0x1p-16f);
+    scale_ = 14.0f / std::max(high - low, 0x1p-16f);
     alignas(64) std::int32_t columns[kRowLanes];
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
-      hn::Store(column(hn::Load(f, places + i)), n, columns + i);
+      hn::Store(column(hn::Load(f, places + i), 1.0f, 15.0f), n, columns + i);
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       const auto here = hn::Add(hn::Iota(n, 0), hn::Set(n, static_cast<std::int32_t>(i)));
       auto rays = hn::Zero(n);
@@ -48,16 +48,17 @@ class RasterAxis {
     const RayBitsTag n;
     // Rounding of both, for places up to 8; what is farther is beyond all rays.
     const auto margin = hn::Set(RayTag(), 0x1p-19f);
-    const auto before = hn::Sub(hn::Max(column(hn::Sub(low, margin)), hn::Set(n, 1)), hn::Set(n, 1));
-    const auto last = hn::Min(column(hn::Add(high, margin)), hn::Set(n, 15));
-    return hn::AndNot(look_up(before), look_up(last));
+    const auto before = hn::Sub(column(hn::Sub(low, margin), 1.0f, 16.0f), hn::Set(n, 1));
+    return hn::AndNot(look_up(before), look_up(column(hn::Add(high, margin), 0.0f, 15.0f)));
   }
 
  private:
-  HWY_INLINE RayInts column(RayVec place) const {
+  /// The nearest integer, by its bits in a float.
+  HWY_INLINE RayInts column(RayVec place, float least, float most) const {
     const RayTag f;
     const auto x = hn::MulAdd(hn::Sub(place, hn::Set(f, low_)), hn::Set(f, scale_), hn::Set(f, 1.0f));
-    return hn::ConvertTo(RayBitsTag(), hn::Max(hn::Min(x, hn::Set(f, 16.0f)), hn::Zero(f)));
+    const auto within = hn::Max(hn::Min(x, hn::Set(f, most)), hn::Set(f, least));
+    return hn::And(hn::BitCast(RayBitsTag(), hn::Add(within, hn::Set(f, 0x1p23f))), hn::Set(RayBitsTag(), 31));
   }
   HWY_INLINE RayInts look_up(RayInts columns) const {
     const RayBitsTag n;
@@ -85,10 +86,11 @@ class RayRaster {
     alignas(64) float places[2][kRowLanes];
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
     RayVec low[2] = {infinity, infinity}, high[2] = {hn::Neg(infinity), hn::Neg(infinity)};
-    auto ahead = infinity;
+    auto ahead = infinity, deepest = hn::Zero(f);
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       const auto depth = hn::Mul(hn::Load(f, b.far[axes_[0]] + i), hn::Set(f, sign_));
       const auto w = hn::Div(hn::Set(f, 1.0f), depth);
+      deepest = hn::Max(deepest, depth);
       for (std::uint32_t side = 0; side < 2; ++side) {
         const auto place = hn::Mul(hn::Load(f, b.far[axes_[1 + side]] + i), w);
         hn::Store(place, f, places[side] + i);
@@ -99,6 +101,7 @@ class RayRaster {
     }
     is_used_ = hn::AllTrue(f, hn::Gt(ahead, hn::Zero(f)));
     if (!is_used_) return;
+    deepest_ = hn::GetLane(hn::MaxOfLanes(f, deepest)) * (1 + 0x1p-20f);
     for (std::uint32_t side = 0; side < 2; ++side)
       sides_[side].set(places[side], hn::GetLane(hn::MinOfLanes(f, low[side])),
                        hn::GetLane(hn::MaxOfLanes(f, high[side])));
@@ -108,27 +111,52 @@ class RayRaster {
   HWY_INLINE RayInts passing(const RayVec (&offset)[3][3]) const {
     const RayTag f;
     const RayBitsTag n;
-    const auto all = hn::Set(n, 0xFFFF);
-    if (!is_used_) return all;
-    RayVec low[2], high[2], least;
+    if (!is_used_) return hn::Set(n, 0xFFFF);
+    RayVec low[2], high[2], nearest, farthest;
     for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
       const auto depth = hn::Mul(offset[vertex][axes_[0]], hn::Set(f, sign_));
       const auto w = hn::Div(hn::Set(f, 1.0f), depth);
-      least = vertex == 0 ? depth : hn::Min(least, depth);
+      nearest = vertex == 0 ? depth : hn::Min(nearest, depth);
+      farthest = vertex == 0 ? depth : hn::Max(farthest, depth);
       for (std::uint32_t side = 0; side < 2; ++side) {
         const auto place = hn::Mul(offset[vertex][axes_[1 + side]], w);
         low[side] = vertex == 0 ? place : hn::Min(low[side], place);
         high[side] = vertex == 0 ? place : hn::Max(high[side], place);
       }
     }
-    const auto rays = hn::And(sides_[0].between(low[0], high[0]), sides_[1].between(low[1], high[1]));
-    // What is not all ahead has no rectangle.
-    return hn::IfThenElse(hn::RebindMask(n, hn::Gt(least, hn::Set(f, 0x1p-60f))), rays, all);
+    return between(nearest, farthest, low, high);
+  }
+
+  /// The same for boxes.
+  HWY_INLINE RayInts passing_boxes(const RayVec (&lower)[3], const RayVec (&upper)[3]) const {
+    const RayTag f;
+    if (!is_used_) return hn::Set(RayBitsTag(), 0xFFFF);
+    const auto nearest = sign_ > 0 ? lower[axes_[0]] : hn::Neg(upper[axes_[0]]);
+    const auto farthest = sign_ > 0 ? upper[axes_[0]] : hn::Neg(lower[axes_[0]]);
+    const auto near_w = hn::Div(hn::Set(f, 1.0f), nearest), far_w = hn::Div(hn::Set(f, 1.0f), farthest);
+    RayVec low[2], high[2];
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      const auto least = lower[axes_[1 + side]], most = upper[axes_[1 + side]];
+      low[side] = hn::Min(hn::Mul(least, near_w), hn::Mul(least, far_w));
+      high[side] = hn::Max(hn::Mul(most, near_w), hn::Mul(most, far_w));
+    }
+    return between(nearest, farthest, low, high);
   }
 
  private:
+  /// What is not all ahead has no rectangle; what is all behind is not met, nor what is all beyond the rays' ends.
+  HWY_INLINE RayInts between(RayVec nearest, RayVec farthest, const RayVec (&low)[2], const RayVec (&high)[2]) const {
+    const RayTag f;
+    const RayBitsTag n;
+    const auto rays = hn::And(sides_[0].between(low[0], high[0]), sides_[1].between(low[1], high[1]));
+    const auto is_ahead = hn::Gt(nearest, hn::Set(f, 0x1p-60f));
+    const auto is_out = hn::Or(hn::Lt(farthest, hn::Zero(f)), hn::Gt(nearest, hn::Set(f, deepest_)));
+    return hn::IfThenZeroElse(hn::RebindMask(n, is_out),
+                              hn::IfThenElse(hn::RebindMask(n, is_ahead), rays, hn::Set(n, 0xFFFF)));
+  }
+
   std::uint32_t axes_[3];
-  float sign_;
+  float sign_, deepest_ = 0;
   bool is_used_;
   RasterAxis sides_[2];
 };

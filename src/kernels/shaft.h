@@ -60,8 +60,13 @@ struct alignas(64) ShaftRows {
 
 /// Lanes of a row of triangles that a shaft's rays may meet.
 struct ShaftMeeting {
-  std::uint32_t shaft, rows;
-  std::uint32_t lanes;
+  std::uint32_t shaft, rows, lanes;
+  float lower[3], upper[3];  ///< the row's box
+};
+
+/// The boxes of sixteen meetings side by side.
+struct alignas(64) MeetingBoxes {
+  float lower[3][kRowLanes], upper[3][kRowLanes];
 };
 
 /// Memory of one call, used again by the next.
@@ -71,6 +76,7 @@ struct ShaftScratch {
   std::vector<ShaftRows> rows;
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of shafts and lanes
   std::vector<ShaftMeeting> meetings, sorted;
+  std::vector<MeetingBoxes> boxes;
   std::vector<std::uint32_t> counts;  ///< for counting sorts
 };
 

@@ -22,7 +22,6 @@
 #include "kernels/ray_lanes-inl.h"
 #include "kernels/ray_raster-inl.h"
 #include "kernels/shaft.h"
-#include "kernels/shaft_list-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -47,12 +46,32 @@ class BundleView {
  public:
   explicit BundleView(const RayBundle& b) : BundleView(b, Box3(b)) {}
 
-  /// Which of sixteen triangles from `first` on the rays may meet; of these `out` is filled.
-  HWY_INLINE SeenLanes look(const TriangleList& list, std::uint32_t first, SeenTriangles& out) const {
+  /// Which of sixteen boxes some ray may meet, and how far the farthest point of each is from the start at most.
+  HWY_INLINE std::uint32_t look_at_boxes(const MeetingBoxes& boxes, float (&reach)[kRowLanes]) const {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      RayVec lower[3], upper[3];
+      auto farthest = hn::Zero(f);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto start = hn::Set(f, bundle_.start[k]);
+        lower[k] = hn::Sub(hn::Load(f, boxes.lower[k] + i), start);
+        upper[k] = hn::Sub(hn::Load(f, boxes.upper[k] + i), start);
+        farthest = hn::Add(farthest, hn::Max(hn::Neg(lower[k]), upper[k]));
+      }
+      hn::Store(hn::Mul(farthest, hn::Set(f, 1 + 0x1p-20f)), f, reach + i);
+      const auto rays = raster_.passing_boxes(lower, upper);
+      result |= ray_bits(hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())))) << i;
+    }
+    return result;
+  }
+
+  /// Which of sixteen triangles the rays may meet, none of them farther than `reach`; of these `out` is filled.
+  HWY_INLINE SeenLanes look(const TriangleRows& rows, float reach, SeenTriangles& out) const {
     const RayTag f;
     SeenLanes result;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
-      look_at(list, first + i, i, out, result);
+      look_at(rows, reach, i, out, result);
     return result;
   }
 
@@ -81,31 +100,31 @@ class BundleView {
 
   BundleView(const RayBundle& b, const Box3& box) : bundle_(b), box_(box), raster_(b, box.middle) {}
 
-  HWY_INLINE void look_at(const TriangleList& list, std::uint32_t place, std::uint32_t i, SeenTriangles& out,
+  HWY_INLINE void look_at(const TriangleRows& rows, float reach, std::uint32_t i, SeenTriangles& out,
                           SeenLanes& result) const {
     const RayTag f;
     const auto zero = hn::Zero(f), negative = hn::Set(f, -0.0f);
-    RayVec edge[3][3], normal[3], offset[3][3];
+    RayVec edge[3][3], normal[3], vertex[3][3], offset[3][3];
     auto plane = zero, end = zero, end_off = zero;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const auto start = hn::Set(f, bundle_.start[k]);
-      for (std::uint32_t vertex = 0; vertex < 3; ++vertex)
-        offset[vertex][k] = hn::Sub(list.vertex(vertex, k, place), start);
+      for (std::uint32_t v = 0; v < 3; ++v) {
+        vertex[v][k] = hn::Load(f, rows.v[v][k] + i);
+        offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, bundle_.start[k]));
+      }
     }
-    const RayBitsTag n;
-    const auto passed = hn::RebindMask(f, hn::Ne(raster_.passing(offset), hn::Zero(n)));
+    const auto passed = hn::RebindMask(f, hn::Ne(raster_.passing(offset), hn::Zero(RayBitsTag())));
     if (hn::AllFalse(f, passed)) return;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      normal[k] = list.normal(k, place);
+      normal[k] = hn::Load(f, rows.normal[k] + i);
       plane = hn::MulAdd(normal[k], offset[0][k], plane);
       end = hn::MulAdd(normal[k], hn::Set(f, box_.middle[k]), end);
       end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, box_.half[k]), end_off);
     }
-    const auto reach = list.reach(place), length = hn::Set(f, box_.length);
-    const auto known = hn::Gt(hn::Abs(plane), hn::MulAdd(reach, hn::Set(f, kPlaneError), hn::Set(f, kTiny)));
+    const auto known = hn::Gt(hn::Abs(plane), hn::Set(f, kPlaneError * reach + kTiny));
     const auto sign = hn::IfThenElseZero(known, hn::And(plane, negative));
-    const auto edge_error = hn::MulAdd(list.size(place), hn::Set(f, kEdgeError * box_.length), hn::Set(f, kTiny));
-    const auto plane_error = hn::MulAdd(hn::Add(reach, length), hn::Set(f, kPlaneError), hn::Set(f, kTiny));
+    const auto edge_error =
+        hn::MulAdd(hn::Load(f, rows.longest + i), hn::Set(f, kEdgeError * reach * box_.length), hn::Set(f, kTiny));
+    const auto plane_error = hn::Set(f, kPlaneError * (reach + box_.length) + kTiny);
     const auto before = hn::Sub(hn::Xor(end, sign), hn::Abs(plane));
     const auto open = hn::And(passed, hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error))));
     if (hn::AllFalse(f, open)) return;
@@ -113,11 +132,12 @@ class BundleView {
     auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), least_low = least_high;
     auto most_low = hn::Neg(least_high);
     for (std::uint32_t e = 0; e < 3; ++e) {
+      RayVec along[3];
+      for (std::uint32_t k = 0; k < 3; ++k) along[k] = hn::Sub(vertex[(e + 1) % 3][k], vertex[e][k]);
       auto middle = zero, off = edge_error;
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t k1 = (k + 1) % 3, k2 = (k + 2) % 3;
-        const auto x =
-            hn::MulSub(offset[e][k1], list.edge(e, k2, place), hn::Mul(offset[e][k2], list.edge(e, k1, place)));
+        const auto x = hn::MulSub(offset[e][k1], along[k2], hn::Mul(offset[e][k2], along[k1]));
         edge[e][k] = hn::Xor(x, sign);
         middle = hn::MulAdd(edge[e][k], hn::Set(f, box_.middle[k]), middle);
         off = hn::MulAdd(hn::Abs(x), hn::Set(f, box_.half[k]), off);

@@ -55,51 +55,46 @@ class ShaftPackets {
   }
 
   void trace_shaft(const Shaft& shaft, std::uint32_t first, std::uint32_t last) {
-    list_.clear();
-    open_ = shaft.lanes;
-    for (std::uint32_t i = first; i < last && open_ != 0; ++i) {
-      list_.add(bvh_.rows(scratch_.sorted[i].rows), scratch_.sorted[i].lanes);
-      if (list_.is_full()) meet_list(shaft);
+    meetings_ = &scratch_.sorted[first];
+    count_ = last - first;
+    scratch_.boxes.resize((count_ + kRowLanes - 1) / kRowLanes);
+    for (std::uint32_t i = 0; i < scratch_.boxes.size() * kRowLanes; ++i) {
+      const ShaftMeeting& m = meetings_[i < count_ ? i : 0];
+      MeetingBoxes& boxes = scratch_.boxes[i / kRowLanes];
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        boxes.lower[k][i % kRowLanes] = m.lower[k];
+        boxes.upper[k][i % kRowLanes] = m.upper[k];
+      }
     }
-    if (list_.count() != 0) meet_list(shaft);
+    favourite_ = kNone;
+    for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1)
+      meet_bundle(scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)]);
   }
 
-  /// Tests the bundles of a shaft that are not blocked yet, and empties the list.
-  void meet_list(const Shaft& shaft) {
-    float radius = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) radius += shaft.start_high[k] - shaft.start_low[k];
-    list_.prepare(shaft.middle, radius);
-    favourite_ = 0;
-    for (std::uint32_t rest = open_; rest != 0; rest &= rest - 1) {
-      const std::uint32_t lane = first_lane(rest);
-      if (meet_bundle(scratch_.bundles[shaft.row * kRowLanes + lane])) open_ &= ~(1u << lane);
-    }
-    list_.clear();
-  }
-
-  /// Returns whether all rays are blocked.
-  bool meet_bundle(const RayBundle& bundle) {
+  void meet_bundle(const RayBundle& bundle) {
     const BundleView view(bundle);
     blocked_ = ~((1u << bundle.count) - 1) & 0xFFFF;
     unsure_count_ = 0;
-    std::uint8_t* const out = rays_.out + bundle.first;
-    const std::uint32_t rows = list_.rows();
-    for (std::uint32_t i = 0; i < rows && blocked_ != 0xFFFF; ++i) {
-      // What blocked the bundle before comes first.
-      const std::uint32_t row = i == 0 ? favourite_ : i <= favourite_ ? i - 1 : i;
-      meet_row(view, row);
-      if (blocked_ == 0xFFFF) favourite_ = row;
+    for (std::uint32_t i = 0; i < scratch_.boxes.size() && blocked_ != 0xFFFF; ++i) {
+      const std::uint32_t here = std::min(count_ - i * kRowLanes, kRowLanes);
+      alignas(64) float reach[kRowLanes];
+      std::uint32_t met = view.look_at_boxes(scratch_.boxes[i], reach) & ((1u << here) - 1);
+      for (; met != 0; met &= met - 1) {
+        const std::uint32_t lane = first_lane(met);
+        meet_rows(view, meetings_[i * kRowLanes + lane], reach[lane]);
+        if (blocked_ == 0xFFFF) break;
+      }
     }
     for (std::uint32_t i = 0; i < unsure_count_; ++i) decide(bundle, unsure_[i].id, unsure_[i].lanes);
+    std::uint8_t* const out = rays_.out + bundle.first;
     for (std::uint32_t rest = blocked_ & ((1u << bundle.count) - 1); rest != 0; rest &= rest - 1)
       out[first_lane(rest)] = 1;
-    return blocked_ == 0xFFFF;
   }
 
-  HWY_INLINE void meet_row(const BundleView& view, std::uint32_t row) {
-    const std::uint32_t first = row * kRowLanes, here = std::min(list_.count() - first, kRowLanes);
-    SeenLanes seen = view.look(list_, first, seen_);
-    seen.met &= (1u << here) - 1;
+  HWY_INLINE void meet_rows(const BundleView& view, const ShaftMeeting& m, float reach) {
+    const TriangleRows& rows = bvh_.rows(m.rows);
+    SeenLanes seen = view.look(rows, reach, seen_);
+    seen.met &= m.lanes;
     if (seen.met == 0) return;
     if (plain_ && (seen.blocks & seen.met) != 0 && !view.bundle().has_begin) {
       blocked_ = 0xFFFF;
@@ -113,9 +108,9 @@ class ShaftPackets {
         blocked_ |= hits.hit;
         if (blocked_ == 0xFFFF) return;
       } else {
-        admit(view.bundle(), list_.id(first + lane), hits.hit & ~blocked_);
+        admit(view.bundle(), rows.id[lane], hits.hit & ~blocked_);
       }
-      if (HWY_UNLIKELY((hits.unsure & ~blocked_) != 0)) note_unsure(view.bundle(), list_.id(first + lane), hits.unsure);
+      if (HWY_UNLIKELY((hits.unsure & ~blocked_) != 0)) note_unsure(view.bundle(), rows.id[lane], hits.unsure);
     }
   }
 
@@ -147,7 +142,7 @@ class ShaftPackets {
   struct Unsure {
     std::uint32_t id, lanes;
   };
-  static constexpr std::uint32_t kMostUnsure = 32;
+  static constexpr std::uint32_t kMostUnsure = 32, kNone = ~0u;
 
   const SceneView& scene_;
   const GroupRays& rays_;
@@ -155,10 +150,10 @@ class ShaftPackets {
   ShaftScratch& scratch_;
   Filter filter_;
   bool plain_;
-  std::uint32_t open_ = 0, blocked_ = 0, favourite_ = 0;
+  const ShaftMeeting* meetings_ = nullptr;  ///< of the shaft
+  std::uint32_t count_ = 0, blocked_ = 0, favourite_ = 0;
   Unsure unsure_[kMostUnsure];
   std::uint32_t unsure_count_ = 0;
-  TriangleList list_;
   SeenTriangles seen_;
 };
 

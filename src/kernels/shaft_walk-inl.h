@@ -119,7 +119,7 @@ class ShaftWalk {
       if (scratch_.meetings.size() > most_) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
-        visit_rows(next & ~BvhNode::kLeaf, list, ends[child] - list);
+        visit_rows(node, child, list, ends[child] - list);
       else
         visit(next, list, ends[child] - list, top + kBvhWidth * count);
     }
@@ -136,7 +136,8 @@ class ShaftWalk {
       hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
-  void visit_rows(std::uint32_t place, std::size_t first, std::size_t count) {
+  void visit_rows(const BvhNode& node, std::uint32_t child, std::size_t first, std::size_t count) {
+    const std::uint32_t place = node.child[child] & ~BvhNode::kLeaf;
     const TriangleRows& rows = bvh_.rows(place);
     const std::uint32_t all = (1u << rows.count) - 1;
     for (std::size_t i = first; i < first + count; ++i) {
@@ -144,7 +145,13 @@ class ShaftWalk {
       for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
         const std::uint32_t shaft = row * kRowLanes + first_lane(rest);
         const std::uint32_t met = all & tests_[shaft](rows);
-        if (met != 0) scratch_.meetings.push_back({shaft, place, met});
+        if (met == 0) continue;
+        ShaftMeeting m{shaft, place, met, {}, {}};
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          m.lower[k] = node.lower[k][child];
+          m.upper[k] = node.upper[k][child];
+        }
+        scratch_.meetings.push_back(m);
       }
     }
   }
