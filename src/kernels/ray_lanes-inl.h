@@ -31,7 +31,13 @@ using RayBitsTag = hn::RebindToSigned<RayTag>;
 inline std::uint32_t ray_bits(RayMask mask) {
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(RayTag(), mask, bytes);
+#if HWY_IS_LITTLE_ENDIAN
+  std::uint16_t bits;  // in one piece: compilers then leave the memory out
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+#else
   return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+#endif
 }
 
 /// The lowest lane of some.

@@ -107,19 +107,22 @@ class RayRaster {
                        hn::GetLane(hn::MaxOfLanes(f, high[side])));
   }
 
-  /// Rays that pass the rectangles of triangles, whose vertices are given as offsets from the start.
+  /// The picture's depth, and its sides.
+  std::uint32_t axis(std::uint32_t k) const { return axes_[k]; }
+
+  /// Rays that pass the rectangles of triangles, whose vertices are given as offsets from the start on these axes.
   HWY_INLINE RayInts passing(const RayVec (&offset)[3][3]) const {
     const RayTag f;
     const RayBitsTag n;
     if (!is_used_) return hn::Set(n, 0xFFFF);
     RayVec low[2], high[2], nearest, farthest;
     for (std::uint32_t vertex = 0; vertex < 3; ++vertex) {
-      const auto depth = hn::Mul(offset[vertex][axes_[0]], hn::Set(f, sign_));
+      const auto depth = hn::Mul(offset[vertex][0], hn::Set(f, sign_));
       const auto w = hn::Div(hn::Set(f, 1.0f), depth);
       nearest = vertex == 0 ? depth : hn::Min(nearest, depth);
       farthest = vertex == 0 ? depth : hn::Max(farthest, depth);
       for (std::uint32_t side = 0; side < 2; ++side) {
-        const auto place = hn::Mul(offset[vertex][axes_[1 + side]], w);
+        const auto place = hn::Mul(offset[vertex][1 + side], w);
         low[side] = vertex == 0 ? place : hn::Min(low[side], place);
         high[side] = vertex == 0 ? place : hn::Max(high[side], place);
       }
@@ -131,12 +134,12 @@ class RayRaster {
   HWY_INLINE RayInts passing_boxes(const RayVec (&lower)[3], const RayVec (&upper)[3]) const {
     const RayTag f;
     if (!is_used_) return hn::Set(RayBitsTag(), 0xFFFF);
-    const auto nearest = sign_ > 0 ? lower[axes_[0]] : hn::Neg(upper[axes_[0]]);
-    const auto farthest = sign_ > 0 ? upper[axes_[0]] : hn::Neg(lower[axes_[0]]);
+    const auto nearest = sign_ > 0 ? lower[0] : hn::Neg(upper[0]);
+    const auto farthest = sign_ > 0 ? upper[0] : hn::Neg(lower[0]);
     const auto near_w = hn::Div(hn::Set(f, 1.0f), nearest), far_w = hn::Div(hn::Set(f, 1.0f), farthest);
     RayVec low[2], high[2];
     for (std::uint32_t side = 0; side < 2; ++side) {
-      const auto least = lower[axes_[1 + side]], most = upper[axes_[1 + side]];
+      const auto least = lower[1 + side], most = upper[1 + side];
       low[side] = hn::Min(hn::Mul(least, near_w), hn::Mul(least, far_w));
       high[side] = hn::Max(hn::Mul(most, near_w), hn::Mul(most, far_w));
     }

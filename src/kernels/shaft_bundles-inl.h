@@ -49,10 +49,11 @@ class BundleReader {
       is_good =
           hn::And(is_good, hn::And(hn::Gt(direction, hn::Set(f, 0x1p-90f)), hn::Lt(direction, hn::Set(f, 0x1p30f))));
       is_good = hn::And(is_good, hn::And(hn::Ge(r.tmin, zero), hn::Lt(r.tmin, r.tmax)));
-      hn::Store(hn::Div(r.tmin, r.tmax), f, out.begin + i);
       same |= ray_bits(is_same) << i;
       good |= ray_bits(is_good) << i;
-      begins |= ray_bits(hn::Gt(r.tmin, zero)) << i;
+      const auto begins_later = hn::Gt(r.tmin, zero);
+      begins |= ray_bits(begins_later) << i;
+      hn::Store(HWY_LIKELY(hn::AllFalse(f, begins_later)) ? zero : hn::Div(r.tmin, r.tmax), f, out.begin + i);
     }
     out.first = static_cast<std::uint32_t>(first);
     out.count = std::max(1u, std::min(most, count_ones(same)));

@@ -41,37 +41,78 @@ struct SeenLanes {
   std::uint32_t edge_on = 0;  ///< of those met: no side is known
 };
 
+/// Lanes of a bundle's rays.
+struct RayHits {
+  std::uint32_t hit = 0, unsure = 0;
+};
+
 /// A bundle's rays side by side.
 class BundleView {
  public:
   explicit BundleView(const RayBundle& b) : BundleView(b, Box3(b)) {}
 
-  /// Which of sixteen boxes some ray may meet, and how far the farthest point of each is from the start at most.
-  HWY_INLINE std::uint32_t look_at_boxes(const MeetingBoxes& boxes, float (&reach)[kRowLanes]) const {
+  /// Which of sixteen boxes some of the `open` rays may meet, and how far the farthest point of each is from the start
+  /// at most.
+  HWY_INLINE std::uint32_t look_at_boxes(const MeetingBoxes& boxes, std::uint32_t open,
+                                         float (&reach)[kRowLanes]) const {
     const RayTag f;
     std::uint32_t result = 0;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       RayVec lower[3], upper[3];
       auto farthest = hn::Zero(f);
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto start = hn::Set(f, bundle_.start[k]);
-        lower[k] = hn::Sub(hn::Load(f, boxes.lower[k] + i), start);
-        upper[k] = hn::Sub(hn::Load(f, boxes.upper[k] + i), start);
+        const auto start = hn::Set(f, start_[k]);
+        lower[k] = hn::Sub(hn::Load(f, boxes.lower[axis(k)] + i), start);
+        upper[k] = hn::Sub(hn::Load(f, boxes.upper[axis(k)] + i), start);
         farthest = hn::Add(farthest, hn::Max(hn::Neg(lower[k]), upper[k]));
       }
       hn::Store(hn::Mul(farthest, hn::Set(f, 1 + 0x1p-20f)), f, reach + i);
-      const auto rays = raster_.passing_boxes(lower, upper);
+      const auto rays = hn::And(raster_.passing_boxes(lower, upper), in_all(open));
       result |= ray_bits(hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())))) << i;
     }
     return result;
   }
 
-  /// Which of sixteen triangles the rays may meet, none of them farther than `reach`; of these `out` is filled.
-  HWY_INLINE SeenLanes look(const TriangleRows& rows, float reach, SeenTriangles& out) const {
+  /// Which of sixteen triangles some of the `open` rays may meet, none of them farther than `reach`; of these `out` is
+  /// filled.
+  HWY_INLINE SeenLanes look(const TriangleRows& rows, std::uint32_t open, float reach, SeenTriangles& out) const {
     const RayTag f;
     SeenLanes result;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
-      look_at(rows, reach, i, out, result);
+      look_at(rows, open, reach, i, out, result);
+    return result;
+  }
+
+  /// A triangle of a row against the rays.
+  HWY_INLINE RayHits meet(const SeenTriangles& t, std::uint32_t lane, bool edge_on) const {
+    const RayTag f;
+    RayHits result;
+    const auto edge_error = hn::Set(f, t.edge_error[lane]);
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto x = hn::Load(f, far_[0] + i), y = hn::Load(f, far_[1] + i), z = hn::Load(f, far_[2] + i);
+      const auto product = [&](const float(&row)[3][kRowLanes]) {
+        return hn::MulAdd(z, hn::Set(f, row[2][lane]),
+                          hn::MulAdd(y, hn::Set(f, row[1][lane]), hn::Mul(x, hn::Set(f, row[0][lane]))));
+      };
+      const auto e0 = product(t.edge[0]), e1 = product(t.edge[1]), e2 = product(t.edge[2]);
+      const auto least = hn::Min(e0, hn::Min(e1, e2));
+      const auto within = hn::Ge(least, hn::Neg(edge_error));
+      if (HWY_UNLIKELY(edge_on)) {
+        const auto apart = hn::AndNot(within, hn::Gt(hn::Max(e0, hn::Max(e1, e2)), edge_error));
+        result.unsure |= ray_bits(hn::Not(apart)) << i;
+        continue;
+      }
+      if (hn::AllFalse(f, within)) continue;
+      const auto plane_error = hn::Set(f, t.plane_error[lane]);
+      const auto end = product(t.normal), plane = hn::Set(f, t.plane[lane]);
+      auto inside = hn::Sub(end, plane);  // of the interval
+      if (HWY_UNLIKELY(bundle_.has_begin))
+        inside = hn::Min(inside, hn::NegMulAdd(hn::Load(f, bundle_.begin + i), end, plane));
+      const auto hit = hn::And(hn::Gt(least, edge_error), hn::Gt(inside, plane_error));
+      const auto open = hn::And(within, hn::Ge(inside, hn::Neg(plane_error)));
+      result.hit |= ray_bits(hit) << i;
+      result.unsure |= ray_bits(hn::AndNot(hit, open)) << i;
+    }
     return result;
   }
 
@@ -95,36 +136,47 @@ class BundleView {
       }
     }
     float middle[3], half[3];
-    float length = 0;  ///< no ray is longer, as a 1-norm
+    float length = 0;
   };
 
-  BundleView(const RayBundle& b, const Box3& box) : bundle_(b), box_(box), raster_(b, box.middle) {}
+  BundleView(const RayBundle& b, const Box3& box) : bundle_(b), raster_(b, box.middle), length_(box.length) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      far_[k] = b.far[axis(k)];
+      start_[k] = b.start[axis(k)];
+      middle_[k] = box.middle[axis(k)];
+      half_[k] = box.half[axis(k)];
+    }
+  }
 
-  HWY_INLINE void look_at(const TriangleRows& rows, float reach, std::uint32_t i, SeenTriangles& out,
-                          SeenLanes& result) const {
+  std::uint32_t axis(std::uint32_t k) const { return raster_.axis(k); }
+  static RayInts in_all(std::uint32_t rays) { return hn::Set(RayBitsTag(), static_cast<std::int32_t>(rays)); }
+
+  HWY_INLINE void look_at(const TriangleRows& rows, std::uint32_t open_rays, float reach, std::uint32_t i,
+                          SeenTriangles& out, SeenLanes& result) const {
     const RayTag f;
     const auto zero = hn::Zero(f), negative = hn::Set(f, -0.0f);
     RayVec edge[3][3], normal[3], vertex[3][3], offset[3][3];
     auto plane = zero, end = zero, end_off = zero;
     for (std::uint32_t k = 0; k < 3; ++k) {
       for (std::uint32_t v = 0; v < 3; ++v) {
-        vertex[v][k] = hn::Load(f, rows.v[v][k] + i);
-        offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, bundle_.start[k]));
+        vertex[v][k] = hn::Load(f, rows.v[v][axis(k)] + i);
+        offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, start_[k]));
       }
     }
-    const auto passed = hn::RebindMask(f, hn::Ne(raster_.passing(offset), hn::Zero(RayBitsTag())));
+    const auto rays = hn::And(raster_.passing(offset), in_all(open_rays));
+    const auto passed = hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())));
     if (hn::AllFalse(f, passed)) return;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      normal[k] = hn::Load(f, rows.normal[k] + i);
+      normal[k] = hn::Load(f, rows.normal[axis(k)] + i);
       plane = hn::MulAdd(normal[k], offset[0][k], plane);
-      end = hn::MulAdd(normal[k], hn::Set(f, box_.middle[k]), end);
-      end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, box_.half[k]), end_off);
+      end = hn::MulAdd(normal[k], hn::Set(f, middle_[k]), end);
+      end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, half_[k]), end_off);
     }
     const auto known = hn::Gt(hn::Abs(plane), hn::Set(f, kPlaneError * reach + kTiny));
     const auto sign = hn::IfThenElseZero(known, hn::And(plane, negative));
     const auto edge_error =
-        hn::MulAdd(hn::Load(f, rows.longest + i), hn::Set(f, kEdgeError * reach * box_.length), hn::Set(f, kTiny));
-    const auto plane_error = hn::Set(f, kPlaneError * (reach + box_.length) + kTiny);
+        hn::MulAdd(hn::Load(f, rows.longest + i), hn::Set(f, kEdgeError * reach * length_), hn::Set(f, kTiny));
+    const auto plane_error = hn::Set(f, kPlaneError * (reach + length_) + kTiny);
     const auto before = hn::Sub(hn::Xor(end, sign), hn::Abs(plane));
     const auto open = hn::And(passed, hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error))));
     if (hn::AllFalse(f, open)) return;
@@ -139,8 +191,8 @@ class BundleView {
         const std::uint32_t k1 = (k + 1) % 3, k2 = (k + 2) % 3;
         const auto x = hn::MulSub(offset[e][k1], along[k2], hn::Mul(offset[e][k2], along[k1]));
         edge[e][k] = hn::Xor(x, sign);
-        middle = hn::MulAdd(edge[e][k], hn::Set(f, box_.middle[k]), middle);
-        off = hn::MulAdd(hn::Abs(x), hn::Set(f, box_.half[k]), off);
+        middle = hn::MulAdd(edge[e][k], hn::Set(f, middle_[k]), middle);
+        off = hn::MulAdd(hn::Abs(x), hn::Set(f, half_[k]), off);
       }
       least_high = hn::Min(least_high, hn::Add(middle, off));
       least_low = hn::Min(least_low, hn::Sub(middle, off));
@@ -168,43 +220,11 @@ class BundleView {
   static constexpr float kTiny = 0x1p-100f;
 
   const RayBundle& bundle_;
-  Box3 box_;
   RayRaster raster_;
+  const float* far_[3];
+  float start_[3], middle_[3], half_[3];  ///< on the picture's axes
+  float length_;                          ///< no ray is longer, as a 1-norm
 };
-
-/// Lanes of a bundle's rays.
-struct RayHits {
-  std::uint32_t hit = 0, unsure = 0;
-};
-
-/// A triangle of a row against the rays of a bundle.
-HWY_INLINE RayHits meet(const SeenTriangles& t, std::uint32_t lane, bool edge_on, const RayBundle& b) {
-  const RayTag f;
-  RayHits result;
-  const auto edge_error = hn::Set(f, t.edge_error[lane]), plane_error = hn::Set(f, t.plane_error[lane]);
-  for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-    const auto x = hn::Load(f, b.far[0] + i), y = hn::Load(f, b.far[1] + i), z = hn::Load(f, b.far[2] + i);
-    const auto product = [&](const float(&row)[3][kRowLanes]) {
-      return hn::MulAdd(z, hn::Set(f, row[2][lane]),
-                        hn::MulAdd(y, hn::Set(f, row[1][lane]), hn::Mul(x, hn::Set(f, row[0][lane]))));
-    };
-    const auto e0 = product(t.edge[0]), e1 = product(t.edge[1]), e2 = product(t.edge[2]);
-    const auto least = hn::Min(e0, hn::Min(e1, e2));
-    if (HWY_UNLIKELY(edge_on)) {
-      const auto apart = hn::And(hn::Lt(least, hn::Neg(edge_error)), hn::Gt(hn::Max(e0, hn::Max(e1, e2)), edge_error));
-      result.unsure |= ray_bits(hn::Not(apart)) << i;
-      continue;
-    }
-    const auto end = product(t.normal), plane = hn::Set(f, t.plane[lane]);
-    auto inside = hn::Sub(end, plane);  // of the interval
-    if (HWY_UNLIKELY(b.has_begin)) inside = hn::Min(inside, hn::NegMulAdd(hn::Load(f, b.begin + i), end, plane));
-    const auto hit = hn::And(hn::Gt(least, edge_error), hn::Gt(inside, plane_error));
-    const auto open = hn::And(hn::Ge(least, hn::Neg(edge_error)), hn::Ge(inside, hn::Neg(plane_error)));
-    result.hit |= ray_bits(hit) << i;
-    result.unsure |= ray_bits(hn::AndNot(hit, open)) << i;
-  }
-  return result;
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail

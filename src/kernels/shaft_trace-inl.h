@@ -78,7 +78,7 @@ class ShaftPackets {
     for (std::uint32_t i = 0; i < scratch_.boxes.size() && blocked_ != 0xFFFF; ++i) {
       const std::uint32_t here = std::min(count_ - i * kRowLanes, kRowLanes);
       alignas(64) float reach[kRowLanes];
-      std::uint32_t met = view.look_at_boxes(scratch_.boxes[i], reach) & ((1u << here) - 1);
+      std::uint32_t met = view.look_at_boxes(scratch_.boxes[i], ~blocked_, reach) & ((1u << here) - 1);
       for (; met != 0; met &= met - 1) {
         const std::uint32_t lane = first_lane(met);
         meet_rows(view, meetings_[i * kRowLanes + lane], reach[lane]);
@@ -93,7 +93,7 @@ class ShaftPackets {
 
   HWY_INLINE void meet_rows(const BundleView& view, const ShaftMeeting& m, float reach) {
     const TriangleRows& rows = bvh_.rows(m.rows);
-    SeenLanes seen = view.look(rows, reach, seen_);
+    SeenLanes seen = view.look(rows, ~blocked_, reach, seen_);
     seen.met &= m.lanes;
     if (seen.met == 0) return;
     if (plain_ && (seen.blocks & seen.met) != 0 && !view.bundle().has_begin) {
@@ -102,7 +102,7 @@ class ShaftPackets {
     }
     for (std::uint32_t rest = seen.met; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = first_lane(rest);
-      const RayHits hits = meet(seen_, lane, (seen.edge_on >> lane & 1) != 0, view.bundle());
+      const RayHits hits = view.meet(seen_, lane, (seen.edge_on >> lane & 1) != 0);
       if ((hits.hit | hits.unsure) == 0) continue;
       if (HWY_LIKELY(plain_)) {
         blocked_ |= hits.hit;
