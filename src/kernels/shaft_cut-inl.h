@@ -148,7 +148,7 @@ class ShaftCutter {
   }
 
   /// How wide the starts of a shaft may be, compared with its ends and with its length.
-  static constexpr float kWidth = 0.5f, kSlope = 0.02f;
+  static constexpr float kWidth = 0.2f, kSlope = 0.01f;
 
   const std::vector<RayBundle>& bundles_;
   std::vector<Shaft>& shafts_;

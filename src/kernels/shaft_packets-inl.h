@@ -73,13 +73,28 @@ class BundleView {
     return result;
   }
 
-  /// Which of sixteen triangles some of the `open` rays may meet, none of them farther than `reach`; of these `out` is
-  /// filled.
-  HWY_INLINE SeenLanes look(const TriangleRows& rows, std::uint32_t open, float reach, SeenTriangles& out) const {
+  /// Which of sixteen triangles some of the `open` rays may meet, by their rectangles alone.
+  HWY_INLINE std::uint32_t pass(const TriangleRows& rows, std::uint32_t open) const {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      RayVec offset[3][3];
+      for (std::uint32_t k = 0; k < 3; ++k)
+        for (std::uint32_t v = 0; v < 3; ++v)
+          offset[v][k] = hn::Sub(hn::Load(f, rows.v[v][axis(k)] + i), hn::Set(f, start_[k]));
+      const auto rays = hn::And(raster_.passing(offset), in_all(open));
+      result |= ray_bits(hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())))) << i;
+    }
+    return result;
+  }
+
+  /// Which of some triangles the rays may meet, none of them farther than `reach`; of these `out` is filled.
+  HWY_INLINE SeenLanes look(const TriangleRows& rows, std::uint32_t wanted, float reach, SeenTriangles& out) const {
     const RayTag f;
     SeenLanes result;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
-      look_at(rows, open, reach, i, out, result);
+      look_at(rows, reach, i, out, result);
+    result.met &= wanted;
     return result;
   }
 
@@ -151,8 +166,8 @@ class BundleView {
   std::uint32_t axis(std::uint32_t k) const { return raster_.axis(k); }
   static RayInts in_all(std::uint32_t rays) { return hn::Set(RayBitsTag(), static_cast<std::int32_t>(rays)); }
 
-  HWY_INLINE void look_at(const TriangleRows& rows, std::uint32_t open_rays, float reach, std::uint32_t i,
-                          SeenTriangles& out, SeenLanes& result) const {
+  HWY_INLINE void look_at(const TriangleRows& rows, float reach, std::uint32_t i, SeenTriangles& out,
+                          SeenLanes& result) const {
     const RayTag f;
     const auto zero = hn::Zero(f), negative = hn::Set(f, -0.0f);
     RayVec edge[3][3], normal[3], vertex[3][3], offset[3][3];
@@ -163,9 +178,6 @@ class BundleView {
         offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, start_[k]));
       }
     }
-    const auto rays = hn::And(raster_.passing(offset), in_all(open_rays));
-    const auto passed = hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())));
-    if (hn::AllFalse(f, passed)) return;
     for (std::uint32_t k = 0; k < 3; ++k) {
       normal[k] = hn::Load(f, rows.normal[axis(k)] + i);
       plane = hn::MulAdd(normal[k], offset[0][k], plane);
@@ -178,7 +190,7 @@ class BundleView {
         hn::MulAdd(hn::Load(f, rows.longest + i), hn::Set(f, kEdgeError * reach * length_), hn::Set(f, kTiny));
     const auto plane_error = hn::Set(f, kPlaneError * (reach + length_) + kTiny);
     const auto before = hn::Sub(hn::Xor(end, sign), hn::Abs(plane));
-    const auto open = hn::And(passed, hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error))));
+    const auto open = hn::Or(hn::Not(known), hn::Ge(hn::Add(before, end_off), hn::Neg(plane_error)));
     if (hn::AllFalse(f, open)) return;
 
     auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), least_low = least_high;

@@ -66,7 +66,7 @@ class ShaftPackets {
         boxes.upper[k][i % kRowLanes] = m.upper[k];
       }
     }
-    favourite_ = kNone;
+    favourite_ = 0;
     for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1)
       meet_bundle(scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)]);
   }
@@ -75,26 +75,45 @@ class ShaftPackets {
     const BundleView view(bundle);
     blocked_ = ~((1u << bundle.count) - 1) & 0xFFFF;
     unsure_count_ = 0;
-    for (std::uint32_t i = 0; i < scratch_.boxes.size() && blocked_ != 0xFFFF; ++i) {
-      const std::uint32_t here = std::min(count_ - i * kRowLanes, kRowLanes);
-      alignas(64) float reach[kRowLanes];
-      std::uint32_t met = view.look_at_boxes(scratch_.boxes[i], ~blocked_, reach) & ((1u << here) - 1);
-      for (; met != 0; met &= met - 1) {
-        const std::uint32_t lane = first_lane(met);
-        meet_rows(view, meetings_[i * kRowLanes + lane], reach[lane]);
-        if (blocked_ == 0xFFFF) break;
-      }
-    }
+    const auto parts = static_cast<std::uint32_t>(scratch_.boxes.size()), first = favourite_ / kRowLanes;
+    for (std::uint32_t i = 0; i < parts && blocked_ != 0xFFFF; ++i)
+      meet_part(view, i == 0 ? first : i <= first ? i - 1 : i);  // what blocked the bundle before comes first
     for (std::uint32_t i = 0; i < unsure_count_; ++i) decide(bundle, unsure_[i].id, unsure_[i].lanes);
     std::uint8_t* const out = rays_.out + bundle.first;
     for (std::uint32_t rest = blocked_ & ((1u << bundle.count) - 1); rest != 0; rest &= rest - 1)
       out[first_lane(rest)] = 1;
   }
 
-  HWY_INLINE void meet_rows(const BundleView& view, const ShaftMeeting& m, float reach) {
+  /// Sixteen of the meetings.
+  HWY_INLINE void meet_part(const BundleView& view, std::uint32_t part) {
+    const ShaftMeeting* const meetings = meetings_ + part * kRowLanes;
+    const std::uint32_t here = std::min(count_ - part * kRowLanes, kRowLanes);
+    alignas(64) float reach[kRowLanes];
+    std::uint32_t met = view.look_at_boxes(scratch_.boxes[part], ~blocked_, reach) & ((1u << here) - 1);
+    const std::uint32_t favourite = favourite_ - part * kRowLanes;
+    if (favourite < kRowLanes && (met >> favourite & 1) != 0) {
+      met &= ~(1u << favourite);
+      meet_rows(view, meetings[favourite], meetings[favourite].lanes, reach[favourite]);
+      if (blocked_ == 0xFFFF) return;
+    }
+    // All rows before any: a branch on each would be a guess that is often wrong.
+    std::uint32_t passed[kRowLanes], lanes[kRowLanes], count = 0;
+    for (; met != 0; met &= met - 1) {
+      const std::uint32_t i = first_lane(met);
+      passed[count] = i;
+      lanes[count] = view.pass(bvh_.rows(meetings[i].rows), ~blocked_) & meetings[i].lanes;
+      count += lanes[count] != 0 ? 1 : 0;
+    }
+    for (std::uint32_t k = 0; k < count && blocked_ != 0xFFFF; ++k) {
+      const std::uint32_t before = blocked_;
+      meet_rows(view, meetings[passed[k]], lanes[k], reach[passed[k]]);
+      if (blocked_ != before) favourite_ = part * kRowLanes + passed[k];
+    }
+  }
+
+  HWY_INLINE void meet_rows(const BundleView& view, const ShaftMeeting& m, std::uint32_t wanted, float reach) {
     const TriangleRows& rows = bvh_.rows(m.rows);
-    SeenLanes seen = view.look(rows, ~blocked_, reach, seen_);
-    seen.met &= m.lanes;
+    const SeenLanes seen = view.look(rows, wanted, reach, seen_);
     if (seen.met == 0) return;
     if (plain_ && (seen.blocks & seen.met) != 0 && !view.bundle().has_begin) {
       blocked_ = 0xFFFF;
@@ -142,7 +161,7 @@ class ShaftPackets {
   struct Unsure {
     std::uint32_t id, lanes;
   };
-  static constexpr std::uint32_t kMostUnsure = 32, kNone = ~0u;
+  static constexpr std::uint32_t kMostUnsure = 32;
 
   const SceneView& scene_;
   const GroupRays& rays_;
