@@ -227,7 +227,7 @@ class ShaftTrace {
  private:
   static constexpr std::size_t kFewestRays = 64;
   static constexpr int kMostScale = 60;
-  static constexpr std::size_t kMostMet = 64;
+  static constexpr std::size_t kMostMet = 1024;
 
   /// Are there mostly runs of the same start?
   static bool comes_in_bundles(const RaySpan& rays) {
