@@ -78,6 +78,11 @@ struct ShaftScratch {
   std::vector<ShaftMeeting> meetings, sorted;
   std::vector<MeetingBoxes> boxes;
   std::vector<std::uint32_t> counts;  ///< for counting sorts
+
+  std::uint64_t bytes() const noexcept {
+    return bundles.capacity() * sizeof(RayBundle) + 2 * meetings.capacity() * sizeof(ShaftMeeting) +
+           lists.capacity() * sizeof(std::uint64_t);
+  }
 };
 
 }  // namespace umbrix::detail

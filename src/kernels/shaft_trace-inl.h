@@ -13,6 +13,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 
 #include "core/float_mode.h"
@@ -189,35 +190,9 @@ class ShaftTrace {
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || !comes_in_bundles(rays.rays)) return false;
     const DefaultFloatMode mode;
     try {
-      ShaftScratch scratch;
-      scratch.bundles.resize(kBatchBundles);
-      const BundleReader reader(*scene_.tree, rays.rays);
-      ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
-      ShaftWalk walk(table_.bvh(), scratch);
-      std::memset(rays.out, 0, rays.rays.count);
-      for (std::size_t next = 0; next < rays.rays.count;) {
-        const std::size_t first = next;
-        std::uint32_t count = 0;
-        while (count < kBatchBundles && next < rays.rays.count) {
-          RayBundle& b = scratch.bundles[count];
-          const bool is_good = reader.read(next, b);
-          next += b.count;
-          if (is_good)
-            ++count;
-          else
-            other(b.first, b.count);
-        }
-        scratch.shafts.clear();
-        ShaftCutter cutter(scratch.bundles, scratch.shafts);
-        for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
-          cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
-        if (count == 0) continue;
-        if (!walk.walk(kMostMet * count)) {
-          other(first, next - first);
-          continue;
-        }
-        packets.trace();
-      }
+      std::unique_ptr<LightViewScratch> scratch = table_.borrow();
+      trace(rays, scratch->shafts, other);
+      table_.give_back(std::move(scratch));
       return true;
     } catch (const std::bad_alloc&) {
       return false;
@@ -239,6 +214,37 @@ class ShaftTrace {
       alike += a[0] == b[0] && a[1] == b[1] && a[2] == b[2] ? 1 : 0;
     }
     return 4 * alike >= 3 * kSamples;
+  }
+
+  template <class Other>
+  void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other) {
+    const BundleReader reader(*scene_.tree, rays.rays);
+    ShaftCutter cutter(scratch.bundles, scratch.shafts);
+    ShaftWalk walk(table_.bvh(), scratch);
+    ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
+    scratch.bundles.resize(kBatchBundles);
+    std::memset(rays.out, 0, rays.rays.count);
+    for (std::size_t next = 0; next < rays.rays.count;) {
+      const std::size_t first = next;
+      std::uint32_t count = 0;
+      while (count < kBatchBundles && next < rays.rays.count) {
+        RayBundle& b = scratch.bundles[count];
+        const bool is_good = reader.read(next, b);
+        next += b.count;
+        if (is_good)
+          ++count;
+        else
+          other(b.first, b.count);
+      }
+      if (count == 0) continue;
+      scratch.shafts.clear();
+      for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
+        cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
+      if (walk.walk(kMostMet * count))
+        packets.trace();
+      else
+        other(first, next - first);
+    }
   }
 
   const SceneView& scene_;
