@@ -32,6 +32,7 @@ class ShaftWalk {
   /// Fills the scratch's meetings; false if there are more than `most` of them.
   bool walk(std::size_t most) {
     most_ = most;
+    tested_ = missed_ = 0;
     lay_out();
     scratch_.meetings.clear();
     auto& lists = scratch_.lists;
@@ -131,6 +132,7 @@ class ShaftWalk {
       hwy::Prefetch(reinterpret_cast<const char*>(&bvh_.node(child)) + 64);
       return;
     }
+    if (!tests_pay()) return;
     const TriangleRows& rows = bvh_.rows(child & ~BvhNode::kLeaf);
     for (std::size_t line = 0; line < sizeof rows; line += 64)
       hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
@@ -144,7 +146,12 @@ class ShaftWalk {
       const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
       for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
         const std::uint32_t shaft = row * kRowLanes + first_lane(rest);
-        const std::uint32_t met = all & tests_[shaft](rows);
+        std::uint32_t met = all;
+        if (tests_pay()) {
+          met &= tests_[shaft](rows);
+          ++tested_;
+          missed_ += met == 0 ? 1 : 0;
+        }
         if (met == 0) continue;
         ShaftMeeting m{shaft, place, met, {}, {}};
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -156,10 +163,13 @@ class ShaftWalk {
     }
   }
 
+  /// In foliage nearly all rows have something in each shaft that meets their box, and each costs a miss of the cache.
+  bool tests_pay() const { return tested_ < 256 || 16 * missed_ > tested_; }
+
   const TriangleBvh& bvh_;
   ShaftScratch& scratch_;
   std::vector<ShaftTest> tests_;
-  std::size_t most_ = 0;
+  std::size_t most_ = 0, tested_ = 0, missed_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE
