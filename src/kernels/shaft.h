@@ -54,8 +54,8 @@ struct ShaftLine {
 /// Sixteen shafts side by side.
 struct alignas(64) ShaftRows {
   float inverse[2][3][kRowLanes], offset[2][3][kRowLanes];  ///< of low and high lines
-  std::uint32_t rises[2][3];                                ///< lanes
   float normal[3][kRowLanes], base[kRowLanes];              ///< in the tree's coordinates
+  std::uint32_t rises[2][3];                                ///< lanes
 };
 
 /// Lanes of a row of triangles that a shaft's rays may meet.
