@@ -50,13 +50,16 @@ struct AutoKernel {
 
   static bool trace_shafts(const SceneView& scene, const GroupRays& rays) {
     if (!scene.side) return false;
+    const auto part = [&](auto&& answer, std::size_t first, std::size_t count) {
+      QueryOptions options;
+      options.mask = rays.mask;
+      options.skip = rays.skip ? rays.skip + first : nullptr;
+      answer(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
+    };
     return ShaftTrace(scene, *static_cast<const LightViewTable*>(scene.side))
-        .trace(rays, [&](std::size_t first, std::size_t count) {
-          QueryOptions options;
-          options.mask = rays.mask;
-          options.skip = rays.skip ? rays.skip + first : nullptr;
-          Others::occluded(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
-        });
+        .trace(
+            rays, [&](std::size_t first, std::size_t count) { part(Others::occluded, first, count); },
+            [&](std::size_t first, std::size_t count) { part(occluded_each<Others::Single>, first, count); });
   }
 
   template <class Each>

@@ -73,15 +73,23 @@ struct alignas(64) MeetingBoxes {
 struct ShaftScratch {
   std::vector<RayBundle> bundles;
   std::vector<Shaft> shafts;
+  std::vector<std::uint32_t> wide;  ///< bundles without one
   std::vector<ShaftRows> rows;
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of shafts and lanes
+  /// A leaf that shafts meet: those of `leaf_lists` up to `end`.
+  struct Leaf {
+    std::uint32_t node, child;
+    std::size_t end;
+  };
+  std::vector<Leaf> leaves;
+  std::vector<std::uint64_t> leaf_lists;
   std::vector<ShaftMeeting> meetings, sorted;
   std::vector<MeetingBoxes> boxes;
   std::vector<std::uint32_t> counts;  ///< for counting sorts
 
   std::uint64_t bytes() const noexcept {
     return bundles.capacity() * sizeof(RayBundle) + 2 * meetings.capacity() * sizeof(ShaftMeeting) +
-           lists.capacity() * sizeof(std::uint64_t);
+           (lists.capacity() + leaf_lists.capacity()) * sizeof(std::uint64_t) + leaves.capacity() * sizeof(Leaf);
   }
 };
 

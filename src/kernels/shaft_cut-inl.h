@@ -26,7 +26,9 @@ namespace HWY_NAMESPACE {
 
 class ShaftCutter {
  public:
-  ShaftCutter(const std::vector<RayBundle>& bundles, std::vector<Shaft>& shafts) : bundles_(bundles), shafts_(shafts) {}
+  /// `wide` takes the numbers of bundles whose rays go all ways: these have no shaft.
+  ShaftCutter(const std::vector<RayBundle>& bundles, std::vector<Shaft>& shafts, std::vector<std::uint32_t>& wide)
+      : bundles_(bundles), shafts_(shafts), wide_(wide) {}
 
   /// Cuts the bundles of a row, of which there are `count`.
   void cut_row(std::uint32_t row, std::uint32_t count) {
@@ -47,7 +49,7 @@ class ShaftCutter {
     s.lanes = lanes;
     bound(s);
     std::uint32_t axis = 0;
-    float widest = 0, ends = 0, length = 0;
+    float widest = 0, ends = 0, length = 0, farthest = 0;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const float width = s.start_high[k] - s.start_low[k];
       if (width > widest) {
@@ -56,6 +58,7 @@ class ShaftCutter {
       }
       ends = std::max(ends, s.end_high[k] - s.end_low[k]);
       length += std::abs(s.end_low[k] - s.start_low[k]);
+      farthest = std::max(farthest, std::abs(0.5f * (s.end_low[k] + s.end_high[k]) - s.middle[k]));
     }
     if (widest > kWidth * ends + kSlope * length) {
       const std::uint32_t low = below(axis, 0.5f * (s.start_low[axis] + s.start_high[axis])) & lanes;
@@ -64,6 +67,11 @@ class ShaftCutter {
         cut(lanes & ~low);
         return;
       }
+    }
+    if (ends > kWide * farthest) {
+      for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1)
+        wide_.push_back(row_ * kRowLanes + first_lane(rest));
+      return;
     }
     find_plane(s);
     shafts_.push_back(s);
@@ -150,8 +158,12 @@ class ShaftCutter {
   /// How wide the starts of a shaft may be, compared with its ends and with its length.
   static constexpr float kWidth = 0.2f, kSlope = 0.01f;
 
+  /// Ends that are wider than this, compared with their distance, are seen all around.
+  static constexpr float kWide = 1.5f;
+
   const std::vector<RayBundle>& bundles_;
   std::vector<Shaft>& shafts_;
+  std::vector<std::uint32_t>& wide_;
   std::uint32_t row_ = 0;
   alignas(64) float starts_[3][kRowLanes];
 };

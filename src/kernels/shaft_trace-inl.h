@@ -38,11 +38,22 @@ class ShaftPackets {
         filter_(scene, rays.mask),
         plain_(!rays.skip && filter_.passes_all()) {}
 
-  void trace() {
+  /// The rays of shafts that may meet very much had better walk alone.
+  template <class Alone>
+  void trace(Alone&& alone) {
     sort_meetings();
-    for (std::uint32_t i = 0; i < scratch_.shafts.size(); ++i)
-      if (scratch_.counts[i] != scratch_.counts[i + 1])
-        trace_shaft(scratch_.shafts[i], scratch_.counts[i], scratch_.counts[i + 1]);
+    for (std::uint32_t i = 0; i < scratch_.shafts.size(); ++i) {
+      const Shaft& shaft = scratch_.shafts[i];
+      const std::uint32_t first = scratch_.counts[i], last = scratch_.counts[i + 1];
+      if (HWY_UNLIKELY(last - first > kMostMeetings)) {
+        for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1) {
+          const RayBundle& b = scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)];
+          alone(b.first, b.count);
+        }
+      } else if (first != last) {
+        trace_shaft(shaft, first, last);
+      }
+    }
   }
 
  private:
@@ -162,7 +173,7 @@ class ShaftPackets {
   struct Unsure {
     std::uint32_t id, lanes;
   };
-  static constexpr std::uint32_t kMostUnsure = 32;
+  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 1024;
 
   const SceneView& scene_;
   const GroupRays& rays_;
@@ -182,16 +193,17 @@ class ShaftTrace {
  public:
   ShaftTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
 
-  /// Answers all rays, those that are not for it by other(first, count). False, with nothing done, if there are few,
+  /// Answers all rays: those that are not for it by other(first, count), those that go all ways from a point by
+  /// alone(first, count). False, with nothing done, if there are few,
   /// they do not come in bundles, or there is no memory.
-  template <class Other>
-  bool trace(const GroupRays& rays, Other&& other) {
+  template <class Other, class Alone>
+  bool trace(const GroupRays& rays, Other&& other, Alone&& alone) {
     if (rays.rays.count < kFewestRays || table_.bvh().empty()) return false;
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || !comes_in_bundles(rays.rays)) return false;
     const DefaultFloatMode mode;
     try {
       std::unique_ptr<LightViewScratch> scratch = table_.borrow();
-      trace(rays, scratch->shafts, other);
+      trace(rays, scratch->shafts, other, alone);
       table_.give_back(std::move(scratch));
       return true;
     } catch (const std::bad_alloc&) {
@@ -202,7 +214,7 @@ class ShaftTrace {
  private:
   static constexpr std::size_t kFewestRays = 64;
   static constexpr int kMostScale = 60;
-  static constexpr std::size_t kMostMet = 1024;
+  static constexpr std::size_t kMostMet = 256;
 
   /// Are there mostly runs of the same start?
   static bool comes_in_bundles(const RaySpan& rays) {
@@ -216,10 +228,10 @@ class ShaftTrace {
     return 4 * alike >= 3 * kSamples;
   }
 
-  template <class Other>
-  void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other) {
+  template <class Other, class Alone>
+  void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other, Alone&& alone) {
     const BundleReader reader(*scene_.tree, rays.rays);
-    ShaftCutter cutter(scratch.bundles, scratch.shafts);
+    ShaftCutter cutter(scratch.bundles, scratch.shafts, scratch.wide);
     ShaftWalk walk(table_.bvh(), scratch);
     ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
     scratch.bundles.resize(kBatchBundles);
@@ -238,12 +250,14 @@ class ShaftTrace {
       }
       if (count == 0) continue;
       scratch.shafts.clear();
+      scratch.wide.clear();
       for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
         cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
+      for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i].first, scratch.bundles[i].count);
       if (walk.walk(kMostMet * count))
-        packets.trace();
+        packets.trace(alone);
       else
-        other(first, next - first);
+        alone(first, next - first);
     }
   }
 

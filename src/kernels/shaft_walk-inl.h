@@ -42,7 +42,10 @@ class ShaftWalk {
       const std::size_t lanes = std::min<std::size_t>(kRowLanes, count - first);
       lists.push_back(first / kRowLanes << 32 | ((1u << lanes) - 1));
     }
+    scratch_.leaves.clear();
+    scratch_.leaf_lists.clear();
     visit(0, 0, lists.size(), lists.size());
+    visit_leaves();
     return scratch_.meetings.size() <= most_;
   }
 
@@ -112,51 +115,64 @@ class ShaftWalk {
         if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
       }
     }
-    for (std::uint32_t child = 0; child < kBvhWidth; ++child)
-      if (ends[child] != top + child * count) prefetch(node.child[child]);
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
       const std::size_t list = top + child * count;
       if (ends[child] == list) continue;
-      if (scratch_.meetings.size() > most_) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
-        visit_rows(node, child, list, ends[child] - list);
+        add_leaf(index, child, list, ends[child] - list);
       else
         visit(next, list, ends[child] - list, top + kBvhWidth * count);
     }
   }
 
-  void prefetch(std::uint32_t child) const {
-    if ((child & BvhNode::kLeaf) == 0) {
-      hwy::Prefetch(&bvh_.node(child));
-      hwy::Prefetch(reinterpret_cast<const char*>(&bvh_.node(child)) + 64);
-      return;
+  void add_leaf(std::uint32_t node, std::uint32_t child, std::size_t first, std::size_t count) {
+    const auto begin = scratch_.lists.begin() + static_cast<std::ptrdiff_t>(first);
+    scratch_.leaf_lists.insert(scratch_.leaf_lists.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+    scratch_.leaves.push_back({node, child, scratch_.leaf_lists.size()});
+  }
+
+  /// Leaves one after the other, so that their triangles can be fetched some way ahead.
+  void visit_leaves() {
+    constexpr std::size_t kAhead = 4;
+    const auto& leaves = scratch_.leaves;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < leaves.size() && scratch_.meetings.size() <= most_; ++i) {
+      if (i + kAhead < leaves.size() && tests_pay()) prefetch(rows_of(leaves[i + kAhead]));
+      visit_rows(leaves[i], first);
+      first = leaves[i].end;
     }
-    if (!tests_pay()) return;
-    const TriangleRows& rows = bvh_.rows(child & ~BvhNode::kLeaf);
+  }
+
+  std::uint32_t place_of(const ShaftScratch::Leaf& leaf) const {
+    return bvh_.node(leaf.node).child[leaf.child] & ~BvhNode::kLeaf;
+  }
+  const TriangleRows& rows_of(const ShaftScratch::Leaf& leaf) const { return bvh_.rows(place_of(leaf)); }
+
+  static void prefetch(const TriangleRows& rows) {
     for (std::size_t line = 0; line < sizeof rows; line += 64)
       hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
-  void visit_rows(const BvhNode& node, std::uint32_t child, std::size_t first, std::size_t count) {
-    const std::uint32_t place = node.child[child] & ~BvhNode::kLeaf;
-    const TriangleRows& rows = bvh_.rows(place);
-    const std::uint32_t all = (1u << rows.count) - 1;
-    for (std::size_t i = first; i < first + count; ++i) {
-      const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
-      for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
+  void visit_rows(const ShaftScratch::Leaf& leaf, std::size_t first) {
+    const BvhNode& node = bvh_.node(leaf.node);
+    const TriangleRows& rows = rows_of(leaf);
+    for (std::size_t i = first; i < leaf.end; ++i) {
+      const std::uint64_t entry = scratch_.leaf_lists[i];
+      const auto row = static_cast<std::uint32_t>(entry >> 32);
+      for (std::uint32_t rest = static_cast<std::uint32_t>(entry); rest != 0; rest &= rest - 1) {
         const std::uint32_t shaft = row * kRowLanes + first_lane(rest);
-        std::uint32_t met = all;
+        std::uint32_t met = 0xFFFF;
         if (tests_pay()) {
-          met &= tests_[shaft](rows);
+          met = tests_[shaft](rows) & ((1u << rows.count) - 1);
           ++tested_;
           missed_ += met == 0 ? 1 : 0;
         }
         if (met == 0) continue;
-        ShaftMeeting m{shaft, place, met, {}, {}};
+        ShaftMeeting m{shaft, place_of(leaf), met, {}, {}};
         for (std::uint32_t k = 0; k < 3; ++k) {
-          m.lower[k] = node.lower[k][child];
-          m.upper[k] = node.upper[k][child];
+          m.lower[k] = node.lower[k][leaf.child];
+          m.upper[k] = node.upper[k][leaf.child];
         }
         scratch_.meetings.push_back(m);
       }
