@@ -216,16 +216,16 @@ class ShaftTrace {
   static constexpr int kMostScale = 60;
   static constexpr std::size_t kMostMet = 256;
 
-  /// Are there mostly runs of the same start?
+  /// Are there five rays from a point, or more, on average? From somewhere among n there are (n + 1) / 2 left.
   static bool comes_in_bundles(const RaySpan& rays) {
     constexpr std::size_t kSamples = 32;
-    std::size_t alike = 0;
+    std::size_t left = 0;
     for (std::size_t sample = 0; sample < kSamples; ++sample) {
-      const std::size_t i = sample * (rays.count - 1) / kSamples;
-      const float *a = rays[i].origin, *b = rays[i + 1].origin;
-      alike += a[0] == b[0] && a[1] == b[1] && a[2] == b[2] ? 1 : 0;
+      const std::size_t first = sample * rays.count / kSamples, end = std::min(rays.count, first + kRowLanes);
+      const float* const start = rays[first].origin;
+      for (std::size_t i = first; i < end && std::equal(start, start + 3, rays[i].origin); ++i) ++left;
     }
-    return 4 * alike >= 3 * kSamples;
+    return left >= 3 * kSamples;
   }
 
   template <class Other, class Alone>

@@ -32,7 +32,7 @@ std::vector<Ray> some_bundles() { return bundles(300, 16, 0.05f, 5); }
 
 TEST(Shafts, BundlesOfAnySize) {
   const TwoMeshes two;
-  for (const std::size_t each : {2u, 3u, 8u, 15u, 16u, 17u, 40u}) {
+  for (const std::size_t each : {2u, 6u, 8u, 15u, 16u, 17u, 40u}) {
     SCOPED_TRACE(each);
     expect_right(two.scene, bundles(2000 / each, each, 0.05f, 3));
   }
