@@ -124,35 +124,71 @@ class ShaftCutter {
 
   /// A plane through three starts that are far apart, below all starts and ends; towards the ends if there is none.
   void find_plane(Shaft& s) const {
-    Vec3 to_end, offset[kRowLanes];
+    const auto start = [&](std::uint32_t lane) {
+      return Vec3(starts_[0][lane] - s.middle[0], starts_[1][lane] - s.middle[1], starts_[2][lane] - s.middle[2]);
+    };
+    const auto along = [&](std::uint32_t k, float from, std::uint32_t i) {
+      return hn::Sub(hn::Load(RayTag(), starts_[k] + i), hn::Set(RayTag(), from));
+    };
+    const std::uint32_t first = first_lane(s.lanes);
+    const float from[3] = {starts_[0][first], starts_[1][first], starts_[2][first]};
+    const Vec3 side = start(lane_of_most(s.lanes,
+                                         [&](std::uint32_t i) {
+                                           const auto x = along(0, from[0], i), y = along(1, from[1], i),
+                                                      z = along(2, from[2], i);
+                                           return square(x, y, z);
+                                         })) -
+                      start(first);
+    const std::uint32_t third = lane_of_most(s.lanes, [&](std::uint32_t i) {
+      const RayTag f;
+      const auto x = along(0, from[0], i), y = along(1, from[1], i), z = along(2, from[2], i);
+      const auto a = hn::Set(f, side.x), b = hn::Set(f, side.y), c = hn::Set(f, side.z);
+      return square(hn::MulSub(b, z, hn::Mul(c, y)), hn::MulSub(c, x, hn::Mul(a, z)), hn::MulSub(a, y, hn::Mul(b, x)));
+    });
+    Vec3 to_end, normal = glm::cross(side, start(third) - start(first));
     for (int k = 0; k < 3; ++k) to_end[k] = 0.5f * (s.end_low[k] + s.end_high[k]) - s.middle[k];
-    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
-      const std::uint32_t lane = first_lane(rest);
-      for (std::uint32_t k = 0; k < 3; ++k) offset[lane][static_cast<int>(k)] = starts_[k][lane] - s.middle[k];
-    }
-    const Vec3 first = offset[first_lane(s.lanes)];
-    Vec3 side(0), normal(0);
-    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
-      const Vec3 d = offset[first_lane(rest)] - first;
-      if (glm::dot(d, d) > glm::dot(side, side)) side = d;
-    }
-    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
-      const Vec3 n = glm::cross(side, offset[first_lane(rest)] - first);
-      if (glm::dot(n, n) > glm::dot(normal, normal)) normal = n;
-    }
     const auto sum = [](const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); };
     if (!(sum(normal) > 0x1p-80f)) normal = to_end;
     if (!(sum(normal) > 0x1p-80f)) normal = Vec3(1, 0, 0);
     normal *= (glm::dot(normal, to_end) < 0 ? -1.0f : 1.0f) / sum(normal);
 
-    float base = std::numeric_limits<float>::infinity();
-    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1)
-      base = std::min(base, glm::dot(normal, offset[first_lane(rest)]));
+    const RayTag f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    auto least = infinity;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto height = hn::Zero(f);
+      for (std::uint32_t k = 0; k < 3; ++k)
+        height = hn::MulAdd(hn::Set(f, normal[static_cast<int>(k)]), along(k, s.middle[k], i), height);
+      least = hn::Min(least, hn::IfThenElse(lane_mask(s.lanes >> i), height, infinity));
+    }
     float ends = -0x1p-20f * s.largest;
     for (int k = 0; k < 3; ++k)
       ends += std::min(normal[k] * (s.end_low[k] - s.middle[k]), normal[k] * (s.end_high[k] - s.middle[k]));
-    s.base = std::min(base, ends);
+    s.base = std::min(hn::GetLane(hn::MinOfLanes(f, least)), ends);
     for (int k = 0; k < 3; ++k) s.normal[k] = normal[k];
+  }
+
+  static HWY_INLINE RayVec square(RayVec x, RayVec y, RayVec z) {
+    return hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+  }
+
+  /// Of some lanes, the one for which value(i), of lanes from i on, is largest.
+  template <class Value>
+  static HWY_INLINE std::uint32_t lane_of_most(std::uint32_t lanes, Value&& value) {
+    const RayTag f;
+    alignas(64) float values[kRowLanes];
+    const auto none = hn::Set(f, -1.0f);
+    auto most = none;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto x = hn::IfThenElse(lane_mask(lanes >> i), value(i), none);
+      hn::Store(x, f, values + i);
+      most = hn::Max(most, x);
+    }
+    const auto largest = hn::Set(f, hn::GetLane(hn::MaxOfLanes(f, most)));
+    std::uint32_t found = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
+      found |= ray_bits(hn::Eq(hn::Load(f, values + i), largest)) << i;
+    return first_lane((found & lanes) != 0 ? found & lanes : lanes);
   }
 
   /// How wide the starts of a shaft may be, compared with its ends and with its length.

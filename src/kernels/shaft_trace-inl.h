@@ -78,7 +78,7 @@ class ShaftPackets {
         boxes.upper[k][i % kRowLanes] = m.upper[k];
       }
     }
-    favourite_ = 0;
+    favourite_ = kNone;
     for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1)
       meet_bundle(scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)]);
   }
@@ -87,7 +87,8 @@ class ShaftPackets {
     const BundleView view(bundle);
     blocked_ = ~((1u << bundle.count) - 1) & 0xFFFF;
     unsure_count_ = 0;
-    const auto parts = static_cast<std::uint32_t>(scratch_.boxes.size()), first = favourite_ / kRowLanes;
+    const auto parts = static_cast<std::uint32_t>(scratch_.boxes.size()),
+               first = favourite_ == kNone ? 0 : favourite_ / kRowLanes;
     for (std::uint32_t i = 0; i < parts && blocked_ != 0xFFFF; ++i)
       meet_part(view, i == 0 ? first : i <= first ? i - 1 : i);  // what blocked the bundle before comes first
     for (std::uint32_t i = 0; i < unsure_count_; ++i) decide(bundle, unsure_[i].id, unsure_[i].lanes);
@@ -173,7 +174,7 @@ class ShaftPackets {
   struct Unsure {
     std::uint32_t id, lanes;
   };
-  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 1024;
+  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 1024, kNone = ~0u;
 
   const SceneView& scene_;
   const GroupRays& rays_;
