@@ -195,7 +195,7 @@ class ShaftCutter {
   static constexpr float kWidth = 0.2f, kSlope = 0.01f;
 
   /// Ends that are wider than this, compared with their distance, are seen all around.
-  static constexpr float kWide = 1.5f;
+  static constexpr float kWide = 0.8f;
 
   const std::vector<RayBundle>& bundles_;
   std::vector<Shaft>& shafts_;
