@@ -132,7 +132,8 @@ struct LightViewScratch {
   }
   std::uint64_t bytes() const noexcept {
     const std::uint64_t rays = 4 * u.capacity() * sizeof(float) + records.capacity() * sizeof(Record);
-    return rays + shafts.bytes() + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
+    return rays + shafts.bytes() + triangles.capacity() * sizeof(LightTriangles) +
+           2 * meetings.capacity() * sizeof(Meeting);
   }
   std::size_t group_count() const noexcept {
     std::size_t count = 0;

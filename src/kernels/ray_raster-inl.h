@@ -46,8 +46,8 @@ class RasterAxis {
   /// Rays between two places.
   HWY_INLINE RayInts between(RayVec low, RayVec high) const {
     const RayBitsTag n;
-    // Rounding of both, for places up to 8; what is farther is beyond all rays.
-    const auto margin = hn::Set(RayTag(), 0x1p-19f);
+    // For places up to 8, of rays (up to 4) and of triangles, four roundings each; what is farther is beyond all rays.
+    const auto margin = hn::Set(RayTag(), 0x1p-18f);
     const auto before = hn::Sub(column(hn::Sub(low, margin), 1.0f, 16.0f), hn::Set(n, 1));
     return hn::AndNot(look_up(before), look_up(column(hn::Add(high, margin), 0.0f, 15.0f)));
   }

@@ -35,7 +35,7 @@ class ShaftTest {
       lines_[1][k] = ShaftLine(start_high + margin, end_high + margin);
       start_half_[k] = std::max(-start_low, start_high) * (1 + 0x1p-20f);
       end_middle_[k] = 0.5f * (end_low + end_high);
-      end_half_[k] = 0.5f * (end_high - end_low) + 0x1p-21f * s.largest;
+      end_half_[k] = 0.5f * (end_high - end_low) + 0x1p-20f * s.largest;
       reach_ += start_half_[k] + std::max(-end_low, end_high) + margin;
     }
     base_ = s.base;
