@@ -47,6 +47,8 @@ CaseData light_at(LightPlace place, std::uint64_t seed, std::size_t ray_count);
 /// All rays of a scene go to one light, past vertices, edges and planes as it sees them.
 enum class OneLight { anywhere, in_plane, at_vertex, near_triangle, far_off };
 CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count);
+/// Or come in bundles from points of that kind, as to lights of some size.
+CaseData from_points(OneLight kind, std::uint64_t seed, std::size_t ray_count);
 
 // huge.cpp: `count` triangles
 CaseData huge_degenerate_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count);

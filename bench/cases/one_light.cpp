@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Many rays to the same light, for tracers that make use of that: past what the light sees at the very edge.
+// Many rays to the same light, or from the same points, for tracers that make use of that: past what the light or the
+// point sees at the very edge.
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,7 @@ Triangles seen_scene(Random& random) {
   return all;
 }
 
+/// Where rays meet: a light, or a point that they start from.
 Float3 light_of(OneLight kind, const Triangles& triangles, Random& random) {
   const oracle::Triangle& t = triangles[random.below(triangles.size())];
   const Float3 a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
@@ -83,6 +85,31 @@ CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count) 
     const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
     data.rays.push_back(ray_from(start_at(light, target, random), light, random));
   }
+  return data;
+}
+
+CaseData from_points(OneLight kind, std::uint64_t seed, std::size_t ray_count) {
+  Random random(seed);
+  CaseData data{seen_scene(random), {}};
+  const Triangles& all = data.triangles;
+  while (data.rays.size() < ray_count) {
+    // Points near each other, as those that neighbouring pixels see.
+    const Float3 middle = light_of(kind, all, random);
+    const Float3 other = vertex(all[random.below(all.size())], random.below(3));
+    const Float3 spread = scale(subtract(other, middle), random.magnitude(-6, -1));
+    const std::size_t aim = random.below(all.size()), wide = 1 + random.below(all.size());
+    for (std::size_t points = 1 + random.below(40); points > 0; --points) {
+      const Float3 u = random.in_cube(1);
+      const Float3 start = random.chance(0.2) ? middle
+                                              : Float3{middle[0] + u[0] * spread[0], middle[1] + u[1] * spread[1],
+                                                       middle[2] + u[2] * spread[2]};
+      for (std::size_t rays = random.chance(0.7) ? 16 : 1 + random.below(20); rays > 0; --rays) {
+        const Float3 target = point_on(all[(aim + random.below(wide)) % all.size()], random);
+        data.rays.push_back(ray_from(start, start_at(start, target, random), random));
+      }
+    }
+  }
+  data.rays.resize(ray_count);
   return data;
 }
 

@@ -113,6 +113,26 @@ void add_one_light(std::vector<Case>& table) {
   }
 }
 
+void add_points(std::vector<Case>& table) {
+  struct Points {
+    const char* name;
+    OneLight kind;
+    const char* summary;
+  };
+  const Points points[] = {
+      {"bundles", OneLight::anywhere, "rays in bundles from points, past what these see at its edge"},
+      {"bundles_in_plane", OneLight::in_plane, "the same, the points in planes of triangles"},
+      {"bundles_at_vertex", OneLight::at_vertex, "the same, the points at and next to vertices"},
+      {"bundles_near", OneLight::near_triangle, "the same, the points next to triangles"},
+      {"bundles_far", OneLight::far_off, "the same, the points 10 to 10000 sizes away"}};
+  for (const Points& p : points) {
+    Case c = plain(24, p.name, 1e6, nullptr, p.summary);
+    c.make = [kind = p.kind](std::uint64_t seed, std::size_t rays) { return from_points(kind, seed, rays); };
+    c.rays_per_scene = 4'000;
+    table.push_back(std::move(c));
+  }
+}
+
 // Row 27: where claims end is what the thinner ones tell.
 void add_thin_walls(std::vector<Case>& table) {
   struct Wall {
@@ -228,6 +248,7 @@ std::vector<Case> all_cases(double size) {
   add(plain(23, "tilted_flat_scene", 1e6, tilted_flat_scene, "all triangles in one tilted plane"));
   add_lights(table);
   add_one_light(table);
+  add_points(table);
   add(plain(24, "far_origins", 1e6, far_origins, "from 10 to 1e12 extents outside"));
   add(plain(25, "no_distance", 1e5, no_distance, "the light at the point itself or one unit in the last place off"));
   add(plain(25, "interval_ends", 1e6, interval_ends, "tmin or tmax within 2 units in the last place of a hit"));

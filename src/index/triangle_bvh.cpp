@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "core/float_mode.h"
@@ -40,6 +41,25 @@ struct Part {
   std::vector<BvhNode> nodes;
   std::vector<Leaf> leaves;
 };
+
+/// In double, where the normal of a triangle that is not much thinner than 2^-20 has an error of 2^-30: so the float
+/// has no other than that of its own rounding.
+Vec3 unit_normal(const Triangle& t) {
+  const DVec3 a = t.v[0], b = DVec3(t.v[1]) - a, c = DVec3(t.v[2]) - a;
+  const DVec3 n = glm::cross(b, c);
+  const double length = glm::length(n);
+  if (!(length > 0x1p-20 * glm::length(b) * glm::length(c)) || !(length > 0x1p-200)) return Vec3(0);
+  return Vec3(n / length);
+}
+
+float longest_edge(const Triangle& t) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const DVec3 edge = DVec3(t.v[(i + 1) % 3]) - DVec3(t.v[i]);
+    square = std::max(square, glm::dot(edge, edge));
+  }
+  return static_cast<float>(std::sqrt(square)) * (1 + 0x1p-20f);
+}
 
 class Builder {
  public:
@@ -160,6 +180,9 @@ void fill_rows(const Triangle* triangles, const Scaler& scale, const BvhReferenc
     rows.id[lane] = id;
     for (int vertex = 0; vertex < 3; ++vertex)
       for (int axis = 0; axis < 3; ++axis) rows.v[vertex][axis][lane] = t.v[vertex][axis];
+    rows.longest[lane] = longest_edge(t);
+    const Vec3 normal = unit_normal(t);
+    for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = normal[axis];
   };
   for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
     const std::uint32_t id = references[leaf.first + lane].id();

@@ -16,7 +16,9 @@ inline constexpr std::uint32_t kBvhWidth = 4;
 
 /// The exact vertices of up to sixteen triangles, in the tree's units. Lanes from `count` on repeat the first.
 struct alignas(64) TriangleRows {
-  float v[3][3][kRowLanes];  ///< by vertex and axis
+  float v[3][3][kRowLanes];    ///< by vertex and axis
+  float normal[3][kRowLanes];  ///< of length 1, each coordinate within one unit in the last place; 0 if not known
+  float longest[kRowLanes];    ///< edge, or a little more
   std::uint32_t id[kRowLanes];
   std::uint32_t count;
   float edge_bound;  ///< no edge from a first vertex is longer

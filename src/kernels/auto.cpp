@@ -13,6 +13,7 @@
 #include "kernels/batch-inl.h"
 #include "kernels/bvh_walk-inl.h"
 #include "kernels/light_trace-inl.h"
+#include "kernels/shaft_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -25,11 +26,8 @@ struct AutoKernel {
   static void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
     for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
       const GroupRays group{part, out + begin, here.skip, here.mask};
-      if (trace<NoCounts>(scene, group)) return;
-      if (const WideTree* const wide = earn_wide(scene, part.count))
-        Others::occluded(with_side(scene, wide), part, out + begin, here);
-      else
-        occluded_each<BvhKernel>(scene, part, out + begin, here);
+      if (trace_shafts(scene, group) || trace<NoCounts>(scene, group)) return;
+      answer_others(scene, part, out + begin, here);
     });
   }
 
@@ -80,6 +78,34 @@ struct AutoKernel {
     SceneView result = scene;
     result.side = wide;
     return result;
+  }
+
+  static bool trace_shafts(const SceneView& scene, const GroupRays& rays) {
+    if (!scene.side) return false;
+    const auto answer = [&](auto&& by, std::size_t first, std::size_t count) {
+      QueryOptions options;
+      options.mask = rays.mask;
+      options.skip = rays.skip ? rays.skip + first : nullptr;
+      by(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
+    };
+    return ShaftTrace(scene, table(scene))
+        .trace(
+            rays, [&](std::size_t first, std::size_t count) { answer(answer_others, first, count); },
+            [&](std::size_t first, std::size_t count) { answer(answer_alone, first, count); });
+  }
+
+  static void answer_others(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
+    if (const WideTree* const wide = earn_wide(scene, rays.count))
+      Others::occluded(with_side(scene, wide), rays, out, options);
+    else
+      occluded_each<BvhKernel>(scene, rays, out, options);
+  }
+
+  static void answer_alone(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
+    if (const WideTree* const wide = earn_wide(scene, rays.count))
+      occluded_each<Others::Single>(with_side(scene, wide), rays, out, options);
+    else
+      occluded_each<BvhKernel>(scene, rays, out, options);
   }
 
   template <class Each>

@@ -58,37 +58,8 @@ inline LightPoint find_light(RaySpan rays, float scale) {
   return light;
 }
 
-/// Rays side by side, as they are given.
-struct GivenLanes {
-  RayVec o[3], d[3], tmin, tmax;
-
-  HWY_INLINE explicit GivenLanes(const float* values) {
-    const RayTag f;
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t k = 0; k < 3; ++k) {
-      o[k] = hn::LoadU(f, values + k);
-      d[k] = hn::LoadU(f, values + 4 + k);
-    }
-    tmin = hn::LoadU(f, values + 3);
-    tmax = hn::LoadU(f, values + 7);
-#else
-    RayVec a0, a1, a2, a3, b0, b1, b2, b3;  // origin and direction of a ray by turns
-    hn::LoadInterleaved4(f, values, a0, a1, a2, a3);
-    hn::LoadInterleaved4(f, values + 4 * hn::Lanes(f), b0, b1, b2, b3);
-    o[0] = hn::ConcatEven(f, b0, a0);
-    o[1] = hn::ConcatEven(f, b1, a1);
-    o[2] = hn::ConcatEven(f, b2, a2);
-    tmin = hn::ConcatEven(f, b3, a3);
-    d[0] = hn::ConcatOdd(f, b0, a0);
-    d[1] = hn::ConcatOdd(f, b1, a1);
-    d[2] = hn::ConcatOdd(f, b2, a2);
-    tmax = hn::ConcatOdd(f, b3, a3);
-#endif
-  }
-};
-
 /// Starts side by side, as the light sees them.
-struct SeenLanes {
+struct SeenStarts {
   RayVec u, v, w;             ///< on their faces
   hn::Vec<RayBitsTag> face;   ///< its number
   RayVec start_off, end_off;  ///< how far off the ends may be, over the depth,
@@ -104,20 +75,10 @@ class LightReader {
 
   /// At most kMostRays.
   const RayRun& read(std::size_t begin, std::uint32_t count) {
-    const RayTag f;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
+    const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
     run_.count = 0;
-    for (std::uint32_t i = 0; i < count; i += step) {
-      const std::uint32_t here = std::min(step, count - i);
-      alignas(64) Ray copies[kRowLanes];
-      const float* values = reinterpret_cast<const float*>(&rays_[begin + i]);
-      if (rays_.stride != sizeof(Ray) || here < step) {
-        std::memset(static_cast<void*>(copies), 0, sizeof copies);
-        for (std::uint32_t k = 0; k < here; ++k) copies[k] = rays_[begin + i + k];
-        values = reinterpret_cast<const float*>(copies);
-      }
-      read_lanes(GivenLanes(values), begin + i, here);
-    }
+    for (std::uint32_t i = 0; i < count; i += step)
+      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i));
     return run_;
   }
 
@@ -128,9 +89,9 @@ class LightReader {
   }
 
  private:
-  HWY_INLINE void read_lanes(const GivenLanes& rays, std::size_t first, std::uint32_t here) {
+  HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here) {
     const RayTag f;
-    SeenLanes seen;
+    SeenStarts seen;
     const auto good = see(rays, seen);
     const auto present = hn::FirstN(f, here);
     for (std::uint32_t rest = ray_bits(hn::AndNot(good, present)); rest != 0; rest &= rest - 1)
@@ -148,16 +109,17 @@ class LightReader {
   }
 
   /// Lanes of rays that end near the light.
-  HWY_INLINE RayMask see(const GivenLanes& rays, SeenLanes& out) const {
+  HWY_INLINE RayMask see(const RayFields& rays, SeenStarts& out) const {
     const RayTag f;
     const auto zero = hn::Zero(f), scale = hn::Set(f, scale_);
     auto off = zero, start_reach = zero, direction = zero, sum = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      direction = hn::Max(direction, hn::Abs(rays.d[k]));
-      const auto origin = hn::Sub(hn::MulSub(rays.o[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
-      const auto to_start = hn::Mul(hn::Mul(rays.d[k], rays.tmin), scale);
-      const auto end = hn::Abs(hn::Add(origin, hn::Mul(hn::Mul(rays.d[k], rays.tmax), scale)));
+      direction = hn::Max(direction, hn::Abs(rays.direction[k]));
+      const auto origin =
+          hn::Sub(hn::MulSub(rays.origin[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
+      const auto to_start = hn::Mul(hn::Mul(rays.direction[k], rays.tmin), scale);
+      const auto end = hn::Abs(hn::Add(origin, hn::Mul(hn::Mul(rays.direction[k], rays.tmax), scale)));
       off = hn::Max(off, end);
       start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
       offset[k] = hn::Add(origin, to_start);
@@ -182,7 +144,7 @@ class LightReader {
     return hn::And(good, hn::And(hn::Lt(rays.tmin, rays.tmax), between(direction, 0x1p-90f, 0x1p30f)));
   }
 
-  static HWY_INLINE void find_faces(const RayVec (&offset)[3], SeenLanes& out) {
+  static HWY_INLINE void find_faces(const RayVec (&offset)[3], SeenStarts& out) {
     const RayTag f;
     const RayBitsTag n;
     const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
@@ -196,7 +158,7 @@ class LightReader {
     out.face = hn::Add(axis, hn::IfThenElseZero(hn::RebindMask(n, hn::Lt(main, hn::Zero(f))), hn::Set(n, 1)));
   }
 
-  HWY_INLINE void add(const SeenLanes& seen, RayMask keep, std::size_t first) {
+  HWY_INLINE void add(const SeenStarts& seen, RayMask keep, std::size_t first) {
     const RayTag f;
     const RayBitsTag n;
     const auto whole = hn::RebindMask(n, keep);

@@ -14,6 +14,7 @@
 #include "core/lazy_array.h"
 #include "index/triangle_bvh.h"
 #include "index/wide_tree.h"
+#include "kernels/shaft.h"
 #include "tree/lazy_tree.h"
 
 namespace umbrix::detail {
@@ -131,6 +132,7 @@ struct LightViewScratch {
   std::vector<Meeting> meetings, sorted;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
   std::vector<std::uint32_t> odd;  ///< rays that do not end at the light, or are nothing for floats
+  ShaftScratch shafts;             ///< of calls that are answered by those instead
 
   /// Forgets all rays, and makes room. Throws std::bad_alloc, as all that fills it.
   void clear(std::size_t room) {
@@ -149,7 +151,8 @@ struct LightViewScratch {
   }
   std::uint64_t bytes() const noexcept {
     const std::uint64_t rays = columns.size() * sizeof(RayColumns) + records.capacity() * sizeof(Record);
-    return rays + triangles.capacity() * sizeof(LightTriangles) + 2 * meetings.capacity() * sizeof(Meeting);
+    return rays + shafts.bytes() + triangles.capacity() * sizeof(LightTriangles) +
+           2 * meetings.capacity() * sizeof(Meeting);
   }
   std::size_t group_count() const noexcept {
     std::size_t count = 0;

@@ -10,9 +10,12 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 #include "index/triangle_bvh.h"
+#include "umbrix/ray.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -28,7 +31,13 @@ using RayBitsTag = hn::RebindToSigned<RayTag>;
 inline std::uint32_t ray_bits(RayMask mask) {
   alignas(8) std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(RayTag(), mask, bytes);
+#if HWY_IS_LITTLE_ENDIAN
+  std::uint16_t bits;  // in one piece: compilers then leave the memory out
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+#else
   return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+#endif
 }
 
 /// The lowest lane of some.
@@ -46,6 +55,46 @@ template <class Each>
 HWY_INLINE void for_lanes(std::size_t first, std::size_t count, Each&& each) {
   const RayTag f;
   for (std::size_t i = 0; i < count; i += hn::Lanes(f)) each(first + i, hn::FirstN(f, count - i));
+}
+
+/// The fields of rays, a vector each.
+struct RayFields {
+  RayVec origin[3], direction[3], tmin, tmax;
+};
+
+/// Of as many rays as there are lanes, from `first` on; of fewer at the end of the span, the others being zero.
+HWY_INLINE RayFields load_rays(const RaySpan& rays, std::size_t first) {
+  const RayTag f;
+  [[maybe_unused]] const std::size_t lanes = hn::Lanes(f);
+  alignas(64) Ray copies[kRowLanes];
+  const float* values = reinterpret_cast<const float*>(&rays[first]);
+  if (rays.stride != sizeof(Ray) || rays.count - first < lanes) {
+    std::memset(static_cast<void*>(copies), 0, sizeof copies);
+    for (std::size_t k = 0; k < std::min(lanes, rays.count - first); ++k) copies[k] = rays[first + k];
+    values = reinterpret_cast<const float*>(copies);
+  }
+  RayFields r;
+#if HWY_TARGET == HWY_SCALAR
+  for (std::size_t k = 0; k < 3; ++k) {
+    r.origin[k] = hn::LoadU(f, values + k);
+    r.direction[k] = hn::LoadU(f, values + 4 + k);
+  }
+  r.tmin = hn::LoadU(f, values + 3);
+  r.tmax = hn::LoadU(f, values + 7);
+#else
+  RayVec a0, a1, a2, a3, b0, b1, b2, b3;  // origin and direction of a ray by turns
+  hn::LoadInterleaved4(f, values, a0, a1, a2, a3);
+  hn::LoadInterleaved4(f, values + 4 * lanes, b0, b1, b2, b3);
+  r.origin[0] = hn::ConcatEven(f, b0, a0);
+  r.origin[1] = hn::ConcatEven(f, b1, a1);
+  r.origin[2] = hn::ConcatEven(f, b2, a2);
+  r.tmin = hn::ConcatEven(f, b3, a3);
+  r.direction[0] = hn::ConcatOdd(f, b0, a0);
+  r.direction[1] = hn::ConcatOdd(f, b1, a1);
+  r.direction[2] = hn::ConcatOdd(f, b2, a2);
+  r.tmax = hn::ConcatOdd(f, b3, a3);
+#endif
+  return r;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "small_scene.h"
@@ -11,6 +12,15 @@
 
 namespace umbrix::detail {
 namespace {
+
+/// The unit normal and the longest edge.
+void expect_measures(const TriangleRows& rows, std::uint32_t i, const Triangle& t) {
+  const DVec3 a = t.v[0], b = t.v[1], c = t.v[2], n = glm::normalize(glm::cross(b - a, c - a));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(rows.normal[k][i], n[k], 1e-7);
+  const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+  EXPECT_GE(rows.longest[i], longest);
+  EXPECT_LE(rows.longest[i], longest * (1 + 1e-5));
+}
 
 /// Adds the ids below a node, whose triangles must be within the box.
 void collect(const TriangleBvh& bvh, const std::vector<Triangle>& triangles, std::uint32_t index, const Box& around,
@@ -39,6 +49,7 @@ void collect(const TriangleBvh& bvh, const std::vector<Triangle>& triangles, std
           ASSERT_TRUE(box.lower[k] <= x && x <= box.upper[k]);
         }
       }
+      expect_measures(rows, i, triangles[rows.id[i]]);
     }
   }
 }
