@@ -58,7 +58,7 @@ class ShaftWalk {
       const std::size_t lane = i % kRowLanes;
       ShaftRows& rows = scratch_.rows[i / kRowLanes];
       if (lane == 0)
-        for (auto& side : rows.rises) std::fill(side, side + 3, 0u);
+        std::fill_n(&rows.rises[0][0], sizeof rows.rises / sizeof rows.rises[0][0], 0u);
       const Shaft& s = scratch_.shafts[i < count ? i : 0];
       if (i < count) tests_.emplace_back(s);
       const float margin = 0x1p-19f * s.largest;
@@ -66,10 +66,10 @@ class ShaftWalk {
       for (std::uint32_t k = 0; k < 3; ++k) {
         const ShaftLine lines[2] = {{s.start_low[k] - margin, s.end_low[k] - margin},
                                     {s.start_high[k] + margin, s.end_high[k] + margin}};
-        for (std::uint32_t side = 0; side < 2; ++side) {
-          rows.inverse[side][k][lane] = lines[side].inverse;
-          rows.offset[side][k][lane] = lines[side].offset;
-          rows.rises[side][k] |= (lines[side].rises ? 1u : 0u) << lane;
+        for (std::uint32_t at = 0; at < 2; ++at) {
+          rows.inverse[at][k][lane] = lines[at].inverse;
+          rows.offset[at][k][lane] = lines[at].offset;
+          rows.rises[at][k] |= (lines[at].rises ? 1u : 0u) << lane;
         }
         rows.normal[k][lane] = s.normal[k];
         base += s.normal[k] * s.middle[k];
