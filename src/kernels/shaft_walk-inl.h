@@ -50,6 +50,12 @@ class ShaftWalk {
   }
 
  private:
+  static void put(const ShaftLine& line, std::uint32_t side, std::uint32_t axis, std::size_t lane, ShaftRows& rows) {
+    rows.inverse[side][axis][lane] = line.inverse;
+    rows.offset[side][axis][lane] = line.offset;
+    rows.rises[side][axis] |= (line.rises ? 1u : 0u) << lane;
+  }
+
   void lay_out() {
     const std::size_t count = scratch_.shafts.size();
     scratch_.rows.resize((count + kRowLanes - 1) / kRowLanes);
@@ -57,20 +63,14 @@ class ShaftWalk {
     for (std::size_t i = 0; i < scratch_.rows.size() * kRowLanes; ++i) {
       const std::size_t lane = i % kRowLanes;
       ShaftRows& rows = scratch_.rows[i / kRowLanes];
-      if (lane == 0)
-        std::fill_n(&rows.rises[0][0], sizeof rows.rises / sizeof rows.rises[0][0], 0u);
+      if (lane == 0) std::fill_n(&rows.rises[0][0], sizeof rows.rises / sizeof rows.rises[0][0], 0u);
       const Shaft& s = scratch_.shafts[i < count ? i : 0];
       if (i < count) tests_.emplace_back(s);
       const float margin = 0x1p-19f * s.largest;
       float base = s.base - 4 * margin;
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const ShaftLine lines[2] = {{s.start_low[k] - margin, s.end_low[k] - margin},
-                                    {s.start_high[k] + margin, s.end_high[k] + margin}};
-        for (std::uint32_t at = 0; at < 2; ++at) {
-          rows.inverse[at][k][lane] = lines[at].inverse;
-          rows.offset[at][k][lane] = lines[at].offset;
-          rows.rises[at][k] |= (lines[at].rises ? 1u : 0u) << lane;
-        }
+        put({s.start_low[k] - margin, s.end_low[k] - margin}, 0, k, lane, rows);
+        put({s.start_high[k] + margin, s.end_high[k] + margin}, 1, k, lane, rows);
         rows.normal[k][lane] = s.normal[k];
         base += s.normal[k] * s.middle[k];
       }
