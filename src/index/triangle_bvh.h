@@ -16,13 +16,16 @@ inline constexpr std::uint32_t kBvhWidth = 4;
 
 /// The exact vertices of up to sixteen triangles, in the tree's units. Lanes from `count` on repeat the first.
 struct alignas(64) TriangleRows {
-  float v[3][3][kRowLanes];    ///< by vertex and axis
-  float normal[3][kRowLanes];  ///< of length 1, each coordinate within one unit in the last place; 0 if not known
-  float longest[kRowLanes];    ///< edge, or a little more
+  float v[3][3][kRowLanes];  ///< by vertex and axis
   std::uint32_t id[kRowLanes];
   std::uint32_t count;
   float edge_bound;  ///< no edge from a first vertex is longer
   float reach;       ///< the box's diagonal: first vertices are that near to any point of the box
+
+  // What only some walks want comes last.
+  alignas(64) float normal[3][kRowLanes];  ///< of length 1, each coordinate within one unit in the last place; 0 if
+                                           ///< not known
+  float longest[kRowLanes];                ///< edge, or a little more
 };
 
 /// Boxes of up to four children, grown by the tree's eps as its cells are. What is left over has a box that nothing

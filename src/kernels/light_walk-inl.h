@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include "kernels/light_triangles-inl.h"
 
@@ -224,7 +225,7 @@ class LightWalk {
   }
 
   static void prefetch(const TriangleRows& rows) {
-    for (std::size_t line = 0; line < sizeof rows; line += 64)
+    for (std::size_t line = 0; line < offsetof(TriangleRows, normal); line += 64)
       hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
