@@ -86,11 +86,10 @@ class UMBRIX_API Scene {
   /// no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
 
-  /// Builds the tree if the kernel can use it, and makes what the kernel needs beside it (KernelInfo::needs_preparation),
-  /// in place of what it had. Answers do not depend on it: queries build the tree themselves, and do without if there is
-  /// no memory. After commit, and not while queries run.
-  /// invalid_argument: not committed. resource_limit: no memory; the kernel then walks as "standard" does, or without
-  /// the tree as "bvh" does.
+  /// Builds the tree if the kernel can use it, and makes what the kernel needs beside it
+  /// (KernelInfo::needs_preparation), in place of what it had. Answers do not depend on it: queries build the tree
+  /// themselves, and do without if there is no memory. After commit, and not while queries run. invalid_argument: not
+  /// committed. resource_limit: no memory; the kernel then walks as "standard" does, or without the tree as "bvh" does.
   Status prepare(KernelId kernel, const Training& training = {}, PrepareStats* stats = nullptr);
 
   /// What a kernel holds beside the tree now, after growing as rays wanted it; 0 if it was not prepared.
