@@ -26,7 +26,8 @@ void add_area_rays(const Ray& to_center, double radius, std::mt19937& random, st
   for (std::size_t k = 0; k < 3; ++k) b[k] = n[(k + 1) % 3] * a[(k + 2) % 3] - n[(k + 2) % 3] * a[(k + 1) % 3];
   std::uniform_real_distribution<double> jitter(0, 1);
   for (int i = 0; i < 16; ++i) {
-    const double r = radius * std::sqrt((i % 4 + jitter(random)) / 4), angle = 2 * kPi * (i / 4 + jitter(random)) / 4;
+    const int ring = i % 4, sector = i / 4;
+    const double r = radius * std::sqrt((ring + jitter(random)) / 4), angle = 2 * kPi * (sector + jitter(random)) / 4;
     double d[3];
     for (std::size_t k = 0; k < 3; ++k)
       d[k] = n[k] * double{to_center.tmax} + r * (std::cos(angle) * a[k] + std::sin(angle) * b[k]);
