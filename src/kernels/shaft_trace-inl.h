@@ -195,8 +195,8 @@ class ShaftTrace {
   ShaftTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
 
   /// Answers all rays: those that are not for it by other(first, count), those that go all ways from a point by
-  /// alone(first, count). False, with nothing done, if there are few,
-  /// they do not come in bundles, or there is no memory.
+  /// alone(first, count). False, with no answer of use, if there are few, they do not come in bundles, or there is no
+  /// memory.
   template <class Other, class Alone>
   bool trace(const GroupRays& rays, Other&& other, Alone&& alone) {
     if (rays.rays.count < kFewestRays || table_.bvh().empty()) return false;

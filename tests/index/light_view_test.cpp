@@ -20,21 +20,6 @@ TEST(LightView, LightsByTurnsAreAnsweredOtherwise) {
   expect_right(two.scene, rays);
 }
 
-TEST(LightView, RaysMayLieInLargerThings) {
-  const TwoMeshes two;
-  struct Thing {
-    Ray ray;
-    char more[20];
-  };
-  const std::vector<Ray> rays = some_rays();
-  std::vector<Thing> things(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) things[i].ray = rays[i];
-  std::vector<std::uint8_t> together(rays.size()), apart(rays.size());
-  two.scene.occluded(RaySpan{rays.data(), rays.size()}, together.data());
-  two.scene.occluded(RaySpan{&things[0].ray, things.size(), sizeof(Thing)}, apart.data());
-  EXPECT_EQ(together, apart);
-}
-
 TEST(LightView, ManyRaysFromEverywhereAreSorted) {
   // So many that they come in an order that the light cannot use, and are brought into one.
   const TwoMeshes two;

@@ -93,6 +93,21 @@ TEST_P(RaysTogether, SomeRaysMayBeOdd) {
   expect_right(two.scene, rays);
 }
 
+TEST_P(RaysTogether, RaysMayLieInLargerThings) {
+  const TwoMeshes two;
+  struct Thing {
+    Ray ray;
+    char more[20];
+  };
+  const std::vector<Ray> rays = GetParam()();
+  std::vector<Thing> things(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) things[i].ray = rays[i];
+  std::vector<std::uint8_t> together(rays.size()), apart(rays.size());
+  two.scene.occluded(RaySpan{rays.data(), rays.size()}, together.data());
+  two.scene.occluded(RaySpan{&things[0].ray, things.size(), sizeof(Thing)}, apart.data());
+  EXPECT_EQ(together, apart);
+}
+
 INSTANTIATE_TEST_SUITE_P(Rays, RaysTogether, testing::Values(&to_one_light, &in_bundles), [](const auto& rays) {
   return std::string(rays.param == &to_one_light ? "ToOneLight" : "InBundles");
 });

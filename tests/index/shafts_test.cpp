@@ -4,8 +4,6 @@
 // answer that it has alone.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "bundles.h"
 #include "two_meshes.h"
 
@@ -34,21 +32,6 @@ TEST(Shafts, MoreThanOneBatch) {
   std::vector<std::uint8_t> answers(rays.size());
   two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data());
   for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(answers[i] != 0, two.scene.occluded(rays[i])) << i;
-}
-
-TEST(Shafts, RaysMayLieInLargerThings) {
-  const TwoMeshes two;
-  struct Thing {
-    Ray ray;
-    char more[20];
-  };
-  const std::vector<Ray> rays = bundles(300, 16, 0.05f, 5);
-  std::vector<Thing> things(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) things[i].ray = rays[i];
-  std::vector<std::uint8_t> together(rays.size()), apart(rays.size());
-  two.scene.occluded(RaySpan{rays.data(), rays.size()}, together.data());
-  two.scene.occluded(RaySpan{&things[0].ray, things.size(), sizeof(Thing)}, apart.data());
-  EXPECT_EQ(together, apart);
 }
 
 }  // namespace
