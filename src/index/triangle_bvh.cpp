@@ -175,26 +175,19 @@ class Scaler {
 void fill_rows(const Triangle* triangles, const Scaler& scale, const BvhReference* references, const Part::Leaf& leaf,
                TriangleRows& rows) {
   rows.count = leaf.count;
-  float longest = 0;
-  const auto put = [&](const Triangle& t, std::uint32_t id, std::uint32_t lane) {
+  // Of lanes that are left over, the first again.
+  for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
+    const std::uint32_t id = references[leaf.first + (lane < leaf.count ? lane : 0)].id();
+    const Triangle t = scale(triangles[id]);
     rows.id[lane] = id;
     for (int vertex = 0; vertex < 3; ++vertex)
       for (int axis = 0; axis < 3; ++axis) rows.v[vertex][axis][lane] = t.v[vertex][axis];
     rows.longest[lane] = longest_edge(t);
     const Vec3 normal = unit_normal(t);
     for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = normal[axis];
-  };
-  for (std::uint32_t lane = 0; lane < leaf.count; ++lane) {
-    const std::uint32_t id = references[leaf.first + lane].id();
-    const Triangle t = scale(triangles[id]);
-    put(t, id, lane);
-    const Vec3 e1 = t.v[1] - t.v[0], e2 = t.v[2] - t.v[0];
-    longest = std::max(longest, std::max(glm::dot(e1, e1), glm::dot(e2, e2)));
   }
-  const std::uint32_t first = references[leaf.first].id();
-  for (std::uint32_t lane = leaf.count; lane < kRowLanes; ++lane) put(scale(triangles[first]), first, lane);
-  // What squares of short edges lose to underflow is made up for.
-  rows.edge_bound = std::sqrt(longest + 0x1p-120f) * (1 + 0x1p-18f);
+  // What denormals lose in rounding is made up for.
+  rows.edge_bound = *std::max_element(rows.longest, rows.longest + kRowLanes) + 0x1p-60f;
   rows.reach = leaf.reach;
 }
 
