@@ -31,12 +31,12 @@ double smith_visibility(double normal_light, double normal_view, double alpha2) 
 
 }  // namespace
 
-Rgb evaluate_bsdf(const io::Material& material, const Vec3& normal, const Vec3& wo, const Vec3& wi) {
-  const Rgb base = to_vec3(material.base_color);
+Rgb evaluate_bsdf(const BsdfParameters& material, const Vec3& normal, const Vec3& wo, const Vec3& wi) {
+  const Rgb base = material.base_color;
   const double metallic = material.metallic;
   const Rgb diffuse_color = base * (1 - metallic);
   const Rgb f0 = glm::mix(Rgb(0.04), base, metallic);
-  const double alpha = std::max(double{material.roughness} * double{material.roughness}, kSmallestAlpha);
+  const double alpha = std::max(material.roughness * material.roughness, kSmallestAlpha);
 
   const Vec3 half = glm::normalize(wo + wi);
   const double view_half = std::clamp(glm::dot(wo, half), 0.0, 1.0);

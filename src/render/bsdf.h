@@ -2,12 +2,18 @@
 #pragma once
 
 #include "render/vec.h"
-#include "umbrix/io/scene_file.h"
 
 namespace umbrix::render {
 
+/// What glTF's metallic-roughness material is at a point.
+struct BsdfParameters {
+  Rgb base_color{1};  ///< linear
+  double metallic = 1;
+  double roughness = 1;  ///< perceptual: its square is the GGX distribution's alpha
+};
+
 /// The share of light from `wi` that leaves towards `wo`, per steradian, without the cosine. All unit vectors, pointing
 /// away from the surface, the directions on the normal's side.
-Rgb evaluate_bsdf(const io::Material& material, const Vec3& normal, const Vec3& wo, const Vec3& wi);
+Rgb evaluate_bsdf(const BsdfParameters& material, const Vec3& normal, const Vec3& wo, const Vec3& wi);
 
 }  // namespace umbrix::render

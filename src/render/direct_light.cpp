@@ -66,7 +66,7 @@ void DirectLight::gather(const Light& light, const std::vector<LightRequest>& re
       ++stats.skipped_behind;
       continue;
     }
-    const Rgb bsdf = evaluate_bsdf(*surface.material, surface.shading_normal, surface.to_viewer, wi);
+    const Rgb bsdf = evaluate_bsdf(surface.bsdf, surface.shading_normal, surface.to_viewer, wi);
     const Rgb radiance = bsdf * arrival.irradiance * cosine * request.share;
     if (radiance == Rgb(0)) {
       ++stats.skipped_no_power;

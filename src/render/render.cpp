@@ -112,10 +112,10 @@ class TileRenderer {
       Surface& surface = tile_.surfaces[i];
       surface = surface_at(frame_.world, rays_[i], hits_[i]);
       sample.hit = sample.opaque = true;
-      if (surface.emits) sample.radiance = to_vec3(surface.material->emission);
+      sample.radiance = surface.emission;
       sample.depth = hits_[i].t;
       sample.normal = surface.shading_normal;
-      sample.albedo = to_vec3(surface.material->base_color);
+      sample.albedo = surface.bsdf.base_color;
       ++stats_.camera_hits;
     }
   }

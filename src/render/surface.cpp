@@ -118,7 +118,8 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   const double area = glm::length(normal);
 
   Surface surface;
-  surface.material = &world.file->materials[mesh.mesh->material];
+  const io::Material& material = world.file->materials[mesh.mesh->material];
+  surface.bsdf = {to_vec3(material.base_color), material.metallic, material.roughness};
   surface.primitive = hit.primitive;
   surface.to_viewer = -glm::normalize(Vec3(ray.direction[0], ray.direction[1], ray.direction[2]));
 
@@ -140,7 +141,7 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   }
   surface.geometric_normal = geometric;
   surface.shading_normal = shading;
-  surface.emits = !behind || surface.material->double_sided;
+  if (!behind || material.double_sided) surface.emission = to_vec3(material.emission);
   surface.origin = origin_before(surface);
   return surface;
 }

@@ -16,15 +16,10 @@ Vec3 direction(double cosine, double azimuth) {
   return Vec3(sine * std::cos(azimuth), sine * std::sin(azimuth), cosine);
 }
 
-io::Material material(float metallic, float roughness) {
-  io::Material m;
-  m.metallic = metallic;
-  m.roughness = roughness;
-  return m;
-}
+BsdfParameters material(double metallic, double roughness) { return {Rgb(1), metallic, roughness}; }
 
 /// The light that leaves towards `wo` if all directions bring 1: at most 1 for a surface that makes no light.
-double white_furnace(const io::Material& m, const Vec3& wo) {
+double white_furnace(const BsdfParameters& m, const Vec3& wo) {
   constexpr int kSteps = 512;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
@@ -40,7 +35,7 @@ TEST(Bsdf, DoesNotChangeWhenLightTurnsRound) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> cosine(0.05, 1), azimuth(0, 2 * kPi), unit(0, 1);
   for (int i = 0; i < 1000; ++i) {
-    io::Material m = material(static_cast<float>(unit(random)), static_cast<float>(unit(random)));
+    BsdfParameters m = material(static_cast<float>(unit(random)), static_cast<float>(unit(random)));
     m.base_color = {0.9f, 0.5f, 0.1f};
     const Vec3 wo = direction(cosine(random), azimuth(random));
     const Vec3 wi = direction(cosine(random), azimuth(random));
@@ -76,7 +71,7 @@ TEST(Bsdf, RoughDielectricSeenStraightOnHasTheClosedForm) {
 }
 
 TEST(Bsdf, MetalHasTheColourOfItsBase) {
-  io::Material m = material(1, 0.5f);
+  BsdfParameters m = material(1, 0.5f);
   m.base_color = {1, 0.5f, 0};
   const Rgb f = evaluate_bsdf(m, kNormal, kNormal, kNormal);
   EXPECT_NEAR(f.g, 0.5 * f.r, 1e-12);

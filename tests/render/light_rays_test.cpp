@@ -37,6 +37,9 @@ io::Light panel(double x, double height, float radiance) {
   return light;
 }
 
+/// Of a material without textures.
+BsdfParameters plain_bsdf(const io::Material& m) { return {to_vec3(m.base_color), m.metallic, m.roughness}; }
+
 /// What the floor sends up at (0, 0, 0) of the panel's light, without anything in between.
 double panel_radiance(const io::Light& light) {
   const io::SceneFile scene = floor_scene();
@@ -46,7 +49,7 @@ double panel_radiance(const io::Light& light) {
     for (int j = 0; j < kSteps; ++j) {
       const Vec3 way = to_vec3(light.position) + Vec3((i + 0.5) / kSteps - 0.5, (j + 0.5) / kSteps - 0.5, 0);
       const double d2 = glm::dot(way, way), cosine = way.z / std::sqrt(d2);
-      const Rgb bsdf = evaluate_bsdf(scene.materials[0], Vec3(0, 0, 1), Vec3(0, 0, 1), way / std::sqrt(d2));
+      const Rgb bsdf = evaluate_bsdf(plain_bsdf(scene.materials[0]), Vec3(0, 0, 1), Vec3(0, 0, 1), way / std::sqrt(d2));
       sum += bsdf.g * cosine * cosine / d2;
     }
   }
@@ -114,7 +117,7 @@ TEST(LightRays, BlockerTakesAwayItsShare) {
     for (int j = 0; j < kSteps; ++j) {
       const Vec3 to = way + Vec3(0, (j + 0.5) / kSteps - 0.5, 0);
       const double d2 = glm::dot(to, to), cosine = to.z / std::sqrt(d2);
-      const Rgb bsdf = evaluate_bsdf(scene.materials[0], Vec3(0, 0, 1), Vec3(0, 0, 1), to / std::sqrt(d2));
+      const Rgb bsdf = evaluate_bsdf(plain_bsdf(scene.materials[0]), Vec3(0, 0, 1), Vec3(0, 0, 1), to / std::sqrt(d2));
       truth += bsdf.g * cosine * cosine / d2;
     }
   }
