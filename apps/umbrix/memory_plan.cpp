@@ -31,8 +31,9 @@ MemoryPlan plan_memory(const RenderJob& job) {
   plan.held = resident_bytes() + kProgramBytes;
   plan.world = placed_vertices(job.scene) * sizeof(io::Float3) +
                job.scene.instanced_triangles() * build_bytes_per_triangle(job.arguments.build_quality);
-  // The floats, and a copy of them while they are encoded.
-  plan.image = 2 * render::image_bytes(render_options(job));
+  // The floats, a copy of them while they are encoded, and one for a checkpoint.
+  const std::uint64_t copies = job.arguments.checkpoints.writes() ? 3 : 2;
+  plan.image = copies * render::image_bytes(render_options(job));
   return plan;
 }
 

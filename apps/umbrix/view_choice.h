@@ -2,17 +2,25 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "render/render.h"
 #include "umbrix/io/scene_file.h"
 
 namespace umbrix::app {
 
+/// What the command line says of it.
+struct ViewChoice {
+  const std::string& setup;   ///< a file; empty: none
+  const std::string& camera;  ///< name or number; empty: the first
+  bool mesh_lights;
+};
+
 /// Chooses camera and lights: those asked for, else the setup's, else the scene's, else ones that show the scene.
-/// Emissive meshes light the scene beside any of these, if wanted. `setup_path` and `camera` may be empty.
-/// `camera_file` is where the camera is from. bad_input: the setup; invalid_argument: no such camera.
-Status choose_view(const io::SceneFile& scene, const std::string& setup_path, const std::string& camera,
-                   bool mesh_lights, render::View& view, std::string& camera_file);
+/// Emissive meshes light the scene beside any of these, if wanted. `camera_file` is where the camera is from,
+/// `setup_files` what the setup was read from. bad_input: the setup; invalid_argument: no such camera.
+Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, std::string& camera_file,
+                   std::vector<std::string>& setup_files);
 
 /// width / height that the camera was made for; 16:9 if it does not say.
 double natural_aspect(const io::Camera& camera);

@@ -8,6 +8,7 @@
 #include "io/gltf_convert.h"
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
+#include "io/input_file.h"
 #include "io/load_error.h"
 
 namespace umbrix::io {
@@ -50,6 +51,7 @@ void note_unread(Conversion& c) {
 }
 
 void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
+  const OpenedFiles record(scene.files);
   const tinygltf::Model model = [&] {
     const GltfDocument document = read_gltf_document(path, limits);
     const nlohmann::json root = parse_json(document.json, limits);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/pixel_rect.h"
 #include "render/ray_route.h"
 #include "render/vec.h"
 #include "umbrix/io/image_file.h"
@@ -25,13 +26,6 @@ struct CameraSample {
   RouteCounts<std::uint32_t> routes{};  ///< of the shadow rays, by what answered them; sums to shadow_rays
   std::uint64_t node_tests = 0;         ///< of those rays, if counted
   std::uint64_t primitive_tests = 0;
-};
-
-/// A rectangle of pixels.
-struct PixelRect {
-  int x = 0, y = 0, width = 0, height = 0;
-
-  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 /// Gathers the samples of one tile's pixels, in double, and writes each pixel once when it is complete. Samples of a

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/render_stats.h"
+#include "render/tile_store.h"
 #include "render/world.h"
 #include "umbrix/frame.h"
 #include "umbrix/io/image_file.h"
@@ -42,6 +43,7 @@ struct RenderOptions {
   bool count_work = false;        ///< fill LightStats::counts; slower
   const std::atomic<bool>* cancel = nullptr;                          ///< polled for each tile and sample
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< tiles; called by one thread at a time
+  TileStore* store = nullptr;  ///< tiles that it has are not rendered again, and not part of the stats
 };
 
 constexpr std::size_t kMostSampledLights = 8;
@@ -55,6 +57,7 @@ struct AovInfo {
   std::string summary;
   bool heat_map;    ///< make_heat_map draws it
   bool heat_scale;  ///< and by a scale of numbers
+  bool of_tracer;   ///< shows how rays were answered, which depends on kernel and instruction set
 };
 
 /// What RenderOptions::aovs may name.

@@ -120,6 +120,7 @@ UMBRIX_API std::array<double, 2> motion_span(const Camera& camera);
 /// What a file holds, after all checks.
 struct SceneFile {
   std::string path;
+  std::vector<std::string> files;  ///< all that were opened for it: this one, and those that it names
   std::string generator;
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
@@ -157,7 +158,8 @@ UMBRIX_API Status load_scene(const std::string& path, SceneFile& out, const Load
 /// Camera and lights from outside the scene file.
 struct Setup {
   std::optional<Camera> camera;
-  std::vector<Light> lights;  ///< empty: keep the file's
+  std::vector<Light> lights;       ///< empty: keep the file's
+  std::vector<std::string> files;  ///< all that were opened for it
 };
 
 /// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"
