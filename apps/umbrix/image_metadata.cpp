@@ -29,14 +29,6 @@ Metadata common(const RenderJob& job, const Frame& frame) {
   return metadata;
 }
 
-/// What the file says of its own checksum; empty if nothing.
-std::string checksum_in(const io::Image& image) {
-  for (const auto& [name, value] : image.metadata) {
-    if (name == "umbrix:checksum") return value;
-  }
-  return "";
-}
-
 }  // namespace
 
 Metadata image_metadata(const RenderJob& job, const Frame& frame, const std::string& path) {
@@ -52,6 +44,21 @@ Metadata image_metadata(const RenderJob& job, const Frame& frame, const render::
   return metadata;
 }
 
+std::string value_of(const Metadata& metadata, const std::string& name) {
+  const auto found =
+      std::find_if(metadata.begin(), metadata.end(), [&](const auto& attribute) { return attribute.first == name; });
+  return found == metadata.end() ? "" : found->second;
+}
+
+std::string first_difference(const Metadata& a, const Metadata& b) {
+  for (const auto& [some, others] : {std::pair(&a, &b), std::pair(&b, &a)}) {
+    for (const auto& attribute : *some) {
+      if (std::find(others->begin(), others->end(), attribute) == others->end()) return attribute.first;
+    }
+  }
+  return "";
+}
+
 bool is_done(const std::string& path, const Metadata& wanted) {
   io::Image image;
   if (!io::read_image(path, image)) return false;
@@ -64,7 +71,7 @@ bool is_done(const std::string& path, const Metadata& wanted) {
     const bool part = name == "umbrix:tile" || name == "umbrix:crop" || name == "umbrix:frame";
     if (part && std::find(wanted.begin(), wanted.end(), std::pair(name, value)) == wanted.end()) return false;
   }
-  const std::string checksum = checksum_in(image);
+  const std::string checksum = value_of(found, "umbrix:checksum");
   return checksum.empty() ? !has_extension(path, ".exr") : checksum == io::image_checksum(image);
 }
 

@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
+#include "choice_option.h"
 #include "config_file.h"
 #include "duration.h"
 #include "frame_list.h"
 #include "heat_map_files.h"
 #include "job_hash.h"
-#include "openjd_lines.h"
 #include "output_pattern.h"
+#include "progress_option.h"
 #include "strict_number.h"
 
 namespace umbrix::app {
@@ -75,20 +75,6 @@ void choose_tile(RenderArguments& arguments, const std::string& text) {
   arguments.tile = tile;
 }
 
-/// Adds an option whose value is one of a few words.
-template <typename T>
-void add_choice(CLI::App& command, const std::string& flags, T& value, const std::map<std::string, T>& words,
-                const std::string& help) {
-  std::string names;
-  for (const auto& [word, meaning] : words) names += (names.empty() ? "" : "|") + word;
-  const auto choose = [&value, words, flags, names](const std::string& word) {
-    const auto found = words.find(word);
-    if (found == words.end()) reject(fmt::format("{}: '{}' is not one of {}", flags, word, names));
-    value = found->second;
-  };
-  command.add_option_function<std::string>(flags, choose, help)->type_name(names);
-}
-
 void choose_kernel(RenderArguments& arguments, const std::string& name) {
   arguments.kernel_name = name;
   if (name == "auto") return;
@@ -142,9 +128,10 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
   add_real(
       command, "--exposure", -64, 64, [&a](double x) { a.write.exposure = static_cast<float>(x); },
       "Stops by which a PNG is brightened [0]");
-  add_choice<io::ToneMap>(command, "--tonemap", a.write.tone_map,
-                          {{"none", io::ToneMap::none}, {"srgb", io::ToneMap::srgb}, {"aces", io::ToneMap::aces}},
-                          "What a PNG's colours go through [srgb]");
+  add_choice<io::ToneMap>(
+      command, "--tonemap", [&a](io::ToneMap map) { a.write.tone_map = map; },
+      {{"none", io::ToneMap::none}, {"srgb", io::ToneMap::srgb}, {"aces", io::ToneMap::aces}},
+      "What a PNG's colours go through [srgb]");
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
@@ -208,9 +195,9 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
           "--kernel", [&a](const std::string& name) { choose_kernel(a, name); },
           "How the tree is walked (see 'umbrix kernels'); changes time, never the picture [auto]")
       ->type_name("NAME");
-  add_choice<BuildQuality>(command, "--build-quality", a.build_quality,
-                           {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}},
-                           "How much time the tree may take [high]");
+  add_choice<BuildQuality>(
+      command, "--build-quality", [&a](BuildQuality quality) { a.build_quality = quality; },
+      {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}}, "How much time the tree may take [high]");
   command
       .add_option_function<std::string>(
           "--simd",
@@ -227,14 +214,7 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
 }
 
 void add_talking_options(CLI::App& command, RenderArguments& a) {
-  add_choice<ProgressStyle>(
-      command, "--progress", a.progress,
-      {{"auto", ProgressStyle::automatic},
-       {"bar", ProgressStyle::bar},
-       {"lines", ProgressStyle::lines},
-       {"none", ProgressStyle::none},
-       {"openjd", ProgressStyle::openjd}},
-      "On stderr; auto: a bar on a terminal, else lines; openjd: for its farms, on stdout [auto]");
+  add_progress_option(command, a.progress);
   command
       .add_option("--stats", a.stats, "Write what was done as JSON; '-': to stdout. Counts work, so tracing is slower")
       ->type_name("FILE");
@@ -277,7 +257,6 @@ void add_render_options(CLI::App& command, RenderArguments& a) {
     check_together(a);
     if (a.resume) a.write.overwrite = a.checkpoints.resume = true;
     a.picture_options = picture_options(command);
-    if (a.progress == ProgressStyle::openjd) use_openjd_lines();
   });
 }
 
