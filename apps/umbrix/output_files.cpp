@@ -64,7 +64,7 @@ Status check_outputs(const RenderArguments& a, const std::vector<Frame>& frames)
     }
   }
   const auto is_exr = [](const std::string& path) { return has_extension(path, ".exr"); };
-  if (!a.aovs.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
+  if (!a.aovs.empty() && !a.print_pixel && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
     return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};
   }
   io::WriteOptions options = a.write;
