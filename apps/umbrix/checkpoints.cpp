@@ -54,6 +54,10 @@ void Checkpoints::finish(std::size_t i) {
   ++finished_count_;
 }
 
+void Checkpoints::wait_if_leaving() {
+  if (leaving_) watcher_.join();
+}
+
 void Checkpoints::keep_frame() {
   if (options_.writes()) save();
   const std::lock_guard<std::mutex> lock(frame_mutex_);
@@ -109,9 +113,11 @@ void Checkpoints::watch() {
     const Clock::time_point next = options_.interval > 0 ? after(Clock::now(), options_.interval) : never;
     const WaitResult result = wait_for_signal(std::min(next, end));
     if (result.woken) return;
+    const bool interrupted = result.signal != 0 && result.signal != SIGUSR1, late = Clock::now() >= end;
+    leaving_ = interrupted || late;
     save();
-    if (result.signal != 0 && result.signal != SIGUSR1) leave("interrupted", 128 + result.signal);
-    if (Clock::now() >= end) {
+    if (interrupted) leave("interrupted", 128 + result.signal);
+    if (late) {
       leave(fmt::format("the time limit of {} s was reached (--time-limit)", options_.time_limit), kIncomplete);
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -37,6 +38,11 @@ class Checkpoints : public render::TileStore {
   /// It will have no end, and its image is about to go: writes a last checkpoint.
   void keep_frame();
 
+  /// Set when the program is about to end, so that what renders stops and leaves the processor to the last checkpoint.
+  const std::atomic<bool>& leaving() const noexcept { return leaving_; }
+  /// Does not come back if it is: the thread that writes the checkpoint ends the program.
+  void wait_if_leaving();
+
   /// Is there anything to do for a frame?
   bool in_use() const noexcept { return options_.resume || options_.writes(); }
 
@@ -55,6 +61,7 @@ class Checkpoints : public render::TileStore {
   const CheckpointOptions options_;
   const bool quiet_;
   const Clock::time_point start_ = Clock::now();
+  std::atomic<bool> leaving_{false};
   std::thread watcher_;
 
   std::mutex frame_mutex_;  ///< held while the frame changes, or its file is written

@@ -38,8 +38,10 @@ Status trace(RenderJob& job, const Frame& frame, RunState& state, io::Image& ima
     state.checkpoints.begin_frame(frame.checkpoint, checkpoint_key(job, frame));
     options.store = &state.checkpoints;
   }
+  options.cancel = &state.checkpoints.leaving();
   const render::View view = {frame.camera, job.view.lights};
   Status status = render::render(job.world, view, options, image, report.stats);
+  state.checkpoints.wait_if_leaving();
   report.seconds.render = watch.seconds();
   return status;
 }
