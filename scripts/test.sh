@@ -25,6 +25,7 @@ check_preset() {
 }
 
 check_preset release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+scripts/farm.sh
 
 if [ "$quick" != --quick ]; then
   mapfile -t sources < <(find apps bench include scenes src tests -name '*.cpp' -o -name '*.h' | sort)

@@ -66,14 +66,16 @@ io::LoadLimits load_limits(const RenderArguments& a) {
 /// The part of the frame that is rendered: all, a crop or pixel, or a tile.
 Status choose_window(RenderJob& job) {
   const RenderArguments& a = job.arguments;
+  job.window = a.crop;
   if (a.tile) {
     job.window.emplace();
-    return tile_window(job.size, *a.tile, *job.window);
+    if (Status status = tile_window(job.size, *a.tile, *job.window); !status) return status;
   }
-  job.window = a.crop;
-  Status status = render::check_options(render_options(job));
-  if (status.code() != StatusCode::invalid_argument || !a.crop) return status;
-  return {status.code(), fmt::format("{}: {}", a.print_pixel ? "--pixel" : "--crop", status.message())};
+  const Status status = render::check_options(render_options(job));
+  if (status.ok()) return {};
+  // Other numbers are within their ranges by now.
+  const char* const flag = a.tile ? "--tile" : a.print_pixel ? "--pixel" : a.crop ? "--crop" : "--size";
+  return {status.code(), fmt::format("{}: {}", flag, status.message())};
 }
 
 /// Leaves out what need not be rendered, which for --resume depends on what would be.
@@ -104,7 +106,6 @@ Status load(RenderJob& job) {
   if (Status status = place_cameras(job); !status) return status;
   job.size = frame_size(a, job.view.camera);
   if (Status status = choose_window(job); !status) return status;
-  if (Status status = render::check_options(render_options(job)); !status) return status;
   if (Status status = check_memory(job); !status) return status;
   if (a.create_folders && !a.dry_run) {
     if (Status status = create_output_folders(a); !status) return status;

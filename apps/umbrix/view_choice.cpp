@@ -22,7 +22,7 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
     out = scene.cameras[number];
     return {};
   }
-  return {StatusCode::invalid_argument, fmt::format("{}: there is no camera '{}'; {}", scene.path, wanted,
+  return {StatusCode::invalid_argument, fmt::format("{}: --camera: there is no camera '{}'; {}", scene.path, wanted,
                                                     names.empty() ? "the file has none" : "the file has " + names)};
 }
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <climits>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -94,14 +96,20 @@ Status write_standard_output(const std::string& text) {
   return error == 0 ? Status() : failed("standard output", reason_of(error));
 }
 
+int place_in_frame(int begin, int frame_begin) {
+  const std::int64_t place = std::int64_t{begin} - frame_begin;
+  if (place < INT_MIN || place > INT_MAX) detail::bad_input("the data window is too far from the display window");
+  return static_cast<int>(place);
+}
+
 void read_checked(const std::string& path, Image& out) {
   const auto input = detail::open_image(path);
   const OIIO::ImageSpec& spec = input->spec();
   Image image;
   image.width = spec.width;
   image.height = spec.height;
-  image.x = spec.x - spec.full_x;
-  image.y = spec.y - spec.full_y;
+  image.x = place_in_frame(spec.x, spec.full_x);
+  image.y = place_in_frame(spec.y, spec.full_y);
   image.frame_width = spec.full_width;
   image.frame_height = spec.full_height;
   image.channels = spec.channelnames;

@@ -64,7 +64,7 @@ ImageError noise_of_mean(const RgbValues& a, const RgbValues& b) {
     middle[i] = (a[i] + b[i]) / 2;
   }
   ImageError noise = measure(half, middle);
-  noise.mean_difference = noise.rmse / std::sqrt(static_cast<double>(a.size() / 3));
+  noise.mean_difference = noise.rmse / std::sqrt(static_cast<double>(a.size()) / 3);
   return noise;
 }
 

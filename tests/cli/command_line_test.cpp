@@ -70,6 +70,9 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
     const Outcome outcome = render(more);
     EXPECT_EQ(outcome.code, 2) << more[0] << " " << more.back() << ": " << outcome.err;
     EXPECT_TRUE(contains(outcome.err, c.said)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, more[0]) || contains(outcome.err, "out.exr") ||
+                contains(outcome.err, "--verbose"))
+        << "no flag or file is named: " << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_FALSE(exists("out.exr"));
   }
