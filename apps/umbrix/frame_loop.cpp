@@ -84,6 +84,8 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.crop = a.crop;
   options.samples = a.samples;
   options.light_samples = a.light_samples;
+  options.bounces = a.bounces;
+  options.filter = a.filter;
   options.seed = a.seed;
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;

@@ -107,8 +107,17 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
       command, "--light-samples", 1, render::kMostLightSamples,
       [&a](auto n) { a.light_samples = static_cast<std::uint32_t>(n); },
       "Shadow rays of a sample to each light with an area; with more than 8 such lights, to 8 of them by power [1]");
+  add_integer(
+      command, "--bounces", 0, render::kMostBounces, [&a](auto n) { a.bounces = static_cast<std::uint32_t>(n); },
+      "Times that light goes on from surface to surface before the camera sees it; noisy below some --spp 64 [0]");
   command.add_flag_callback(
       "--no-mesh-lights", [&a] { a.mesh_lights = false; }, "Emissive surfaces are seen, but light nothing");
+  add_choice<render::PixelFilter>(command, "--filter", a.filter,
+                                  {{"box", render::PixelFilter::box},
+                                   {"triangle", render::PixelFilter::triangle},
+                                   {"gaussian", render::PixelFilter::gaussian},
+                                   {"blackman-harris", render::PixelFilter::blackman_harris}},
+                                  "How a pixel's samples are spread around its centre [box]");
   add_integer(
       command, "--seed", 0, UINT64_MAX, [&a](auto n) { a.seed = n; }, "Another seed, other sample places [0]");
   add_real(

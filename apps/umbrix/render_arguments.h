@@ -38,7 +38,9 @@ struct RenderArguments {
   std::optional<render::Crop> crop;
   std::uint32_t samples = 1;
   std::uint32_t light_samples = 1;
+  std::uint32_t bounces = 0;
   bool mesh_lights = true;
+  render::PixelFilter filter = render::PixelFilter::box;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
   std::vector<HeatMapFile> heat_maps;  ///< for frames, with a place for their number

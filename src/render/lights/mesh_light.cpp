@@ -7,6 +7,7 @@
 #include "render/lights/light.h"
 #include "render/sampling/discrete_distribution.h"
 #include "render/sampling/spherical_triangle.h"
+#include "render/surface.h"
 
 namespace umbrix::render {
 namespace {
@@ -55,7 +56,15 @@ class MeshLight final : public Light {
     arrival.irradiance = radiance_ * (solid_angle / choice.probability);
     arrival.normal = height > 0 ? triangle.normal : -triangle.normal;
     arrival.error = triangle.error();
+    arrival.density = choice.probability / solid_angle;
     return arrival;
+  }
+
+  double density(const Receiver& receiver, const Vec3&, const Surface* surface) const override {
+    if (!surface || !(by_area_.total() > 0)) return 0;
+    const std::size_t number = surface->primitive.triangle;
+    const double solid_angle = seen_solid_angle(Shape(*mesh_, number), receiver, surface->point);
+    return solid_angle > 0 ? by_area_.probability(number) / solid_angle : 0;
   }
 
   double power() const override { return luminance(radiance_) * kPi * by_area_.total() * (double_sided_ ? 2 : 1); }
@@ -87,7 +96,7 @@ class MeshLight final : public Light {
 
   static Vec3 point_of(const Shape& triangle, const Receiver& receiver, const SamplePoint& u, double& solid_angle) {
     const SphericalTriangle seen(triangle.corners, receiver.origin);
-    if (seen.solid_angle() > kLeastSolidAngle && seen.solid_angle() < kMostSolidAngle) {
+    if (is_well_known(seen)) {
       solid_angle = seen.solid_angle();
       const SamplePoint b = seen.point(u);
       return triangle.at(b.x, b.y);
@@ -95,10 +104,25 @@ class MeshLight final : public Light {
     // Uniform in area (Turk 1990).
     const double root = std::sqrt(u.x);
     const Vec3 target = triangle.at(root * (1 - u.y), root * u.y);
+    solid_angle = as_seen_at(triangle, receiver, target);
+    return target;
+  }
+
+  static bool is_well_known(const SphericalTriangle& seen) {
+    return seen.solid_angle() > kLeastSolidAngle && seen.solid_angle() < kMostSolidAngle;
+  }
+
+  /// A triangle's solid angle if all of it were seen as one of its points is.
+  static double as_seen_at(const Shape& triangle, const Receiver& receiver, const Vec3& target) {
     const Vec3 way = target - receiver.origin;
     const double distance2 = glm::dot(way, way);
-    solid_angle = triangle.area() * std::abs(glm::dot(way, triangle.normal)) / (distance2 * std::sqrt(distance2));
-    return target;
+    return triangle.area() * std::abs(glm::dot(way, triangle.normal)) / (distance2 * std::sqrt(distance2));
+  }
+
+  /// What point_of says of a point that it makes.
+  static double seen_solid_angle(const Shape& triangle, const Receiver& receiver, const Vec3& target) {
+    const SphericalTriangle seen(triangle.corners, receiver.origin);
+    return is_well_known(seen) ? seen.solid_angle() : as_seen_at(triangle, receiver, target);
   }
 
   Rgb radiance_;
