@@ -20,12 +20,19 @@ void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
                     {"umbrix:seed", std::to_string(a.seed)},
                     {"umbrix:spp", std::to_string(a.samples)}};
   if (a.light_samples > 1) image.metadata.emplace_back("umbrix:light_samples", std::to_string(a.light_samples));
+  if (a.bounces > 0) image.metadata.emplace_back("umbrix:bounces", std::to_string(a.bounces));
   if (frame.number) image.metadata.emplace_back("umbrix:frame", std::to_string(*frame.number));
   if (a.crop) {
     const render::Crop& c = *a.crop;
     image.metadata.emplace_back("umbrix:crop", fmt::format("{}x{}+{}+{}", c.width, c.height, c.x, c.y));
     image.metadata.emplace_back("umbrix:frame_size", fmt::format("{}x{}", job.size.width, job.size.height));
   }
+}
+
+Status write_preview(const RenderArguments& a, const io::Image& image) {
+  io::WriteOptions options = a.write;
+  options.overwrite = true;
+  return io::write_image(a.preview, image, options);
 }
 
 Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
@@ -35,10 +42,16 @@ Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& 
   if (job.arguments.kernel_name == "auto") options.tracer = &job.tracer;
   options.frame = frame.number.value_or(0);
   options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
+  Status preview_status;
+  if (!job.arguments.preview.empty()) {
+    options.preview = [&](const io::Image& so_far, std::uint32_t) {
+      if (preview_status.ok()) preview_status = write_preview(job.arguments, so_far);
+    };
+  }
   const render::View view = {frame.camera, job.view.lights};
   Status status = render::render(job.world, view, options, image, report.stats);
   report.seconds.render = watch.seconds();
-  return status;
+  return status.ok() ? preview_status : status;
 }
 
 Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, FrameReport& report) {
@@ -86,6 +99,7 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.light_samples = a.light_samples;
   options.bounces = a.bounces;
   options.filter = a.filter;
+  options.ao_distance = a.ao_distance;
   options.seed = a.seed;
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;

@@ -124,15 +124,21 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
       command, "--exposure", -64, 64, [&a](double x) { a.write.exposure = static_cast<float>(x); },
       "Stops by which a PNG is brightened [0]");
   add_choice<io::ToneMap>(command, "--tonemap", a.write.tone_map,
-                          {{"none", io::ToneMap::none}, {"srgb", io::ToneMap::srgb}, {"aces", io::ToneMap::aces}},
+                          {{"none", io::ToneMap::none},
+                           {"srgb", io::ToneMap::srgb},
+                           {"aces", io::ToneMap::aces},
+                           {"agx", io::ToneMap::agx}},
                           "What a PNG's colours go through [srgb]");
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
-          "More channels for EXR: normal,depth,albedo,shadow,node_tests,primitive_tests,kernel")
+          "More channels for EXR: normal,depth,albedo,indirect,ao,shadow,node_tests,primitive_tests,kernel")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");
+  add_real(
+      command, "--ao-distance", 1e-30, 1e30, [&a](double x) { a.ao_distance = static_cast<float>(x); },
+      "How far the ambient occlusion of --aov ao looks, in scene units [to infinity]");
   const auto type_flag = [&](const char* flag, io::PixelType type, const char* help) {
     return command.add_flag_callback(
         flag, [&a, type] { a.write.pixel_type = type; }, help);
@@ -174,6 +180,10 @@ void add_talking_options(CLI::App& command, RenderArguments& a) {
                             "On stderr; auto: a bar on a terminal, else lines [auto]");
   command
       .add_option("--stats", a.stats, "Write what was done as JSON; '-': to stdout. Counts work, so tracing is slower")
+      ->type_name("FILE");
+  command
+      .add_option("--preview", a.preview,
+                  "Image that shows the samples so far and is replaced after 1, 2, 4, 8, ... of --spp")
       ->type_name("FILE");
   CLI::Option* quiet = command.add_flag("-q,--quiet", a.quiet, "Only errors");
   command.add_flag("-v,--verbose", a.verbose, "Also what in the scene is ignored")->excludes(quiet);

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ struct RenderArguments {
   render::PixelFilter filter = render::PixelFilter::box;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
+  float ao_distance = std::numeric_limits<float>::infinity();
+  std::string preview;                 ///< file, or empty
   std::vector<HeatMapFile> heat_maps;  ///< for frames, with a place for their number
   io::WriteOptions write;              ///< exposure, tone map, pixel type, overwrite
   KernelId kernel;

@@ -47,7 +47,7 @@ Status choose_view(const io::SceneFile& scene, const std::string& setup_path, co
   if (mesh_lights) {
     for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
   }
-  if (view.lights.empty()) view.lights.push_back(io::default_light(view.camera));
+  if (view.lights.empty()) view.lights = io::default_lights(scene, view.camera);
   return {};
 }
 

@@ -95,7 +95,7 @@ void Bounces::arrive(TileSamples& tile, RenderStats& stats) {
       ++stats.bounce_hits;
     }
     const Rgb seen = light_seen(steps_[k], direction, tile.active[i] ? &tile.surfaces[i] : nullptr);
-    tile.samples[i].radiance += tile.throughput[i] * seen;
+    tile.samples[i].add(tile.throughput[i] * seen, tile.depth > 1);
   }
 }
 

@@ -36,7 +36,7 @@ void DirectLight::add(const Light& light, std::uint32_t number, const std::vecto
     CameraSample& sample = tile.samples[pending_[i].sample];
     ++stats.routes[index_of(routes_[i])];
     ++(occluded_[i] ? stats.occluded : stats.unoccluded);
-    if (!occluded_[i]) sample.radiance += pending_[i].radiance;
+    if (!occluded_[i]) sample.add(pending_[i].radiance, tile.depth > 0);
     if (tile.depth > 0) continue;
     ++sample.shadow_rays;
     ++sample.routes[index_of(routes_[i])];

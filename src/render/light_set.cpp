@@ -32,7 +32,9 @@ LightSet::LightSet(const World& world, const std::vector<io::Light>& lights) {
     lights_.push_back(make_light(light, world));
     (area ? with_area : punctual_).push_back(number);
     if (light.type == io::LightType::mesh) mesh_lights_.emplace(light.instance, number);
-    if (lights_.back()->surrounds()) surrounding_.push_back(number);
+    if (!lights_.back()->surrounds()) continue;
+    surrounding_.push_back(number);
+    if (light.visible) seen_.push_back(number);
   }
   if (with_area.size() <= kMostSampledLights) {
     sampled_ = std::move(with_area);
@@ -67,7 +69,7 @@ bool LightSet::find_mesh_light(const World& world, const Surface& surface, std::
 
 Rgb LightSet::background(const Vec3& direction) const {
   Rgb sum(0);
-  for (const std::uint32_t number : surrounding_) sum += lights_[number]->background(direction);
+  for (const std::uint32_t number : seen_) sum += lights_[number]->background(direction);
   return sum;
 }
 

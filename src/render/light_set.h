@@ -38,13 +38,13 @@ class LightSet {
   /// Numbers of the lights that surround the scene.
   const std::vector<std::uint32_t>& surrounding() const { return surrounding_; }
 
-  /// What a ray sees that leaves the scene in a unit direction, if `surrounds`.
-  bool surrounds() const { return !surrounding_.empty(); }
+  /// What the camera sees where nothing is, in a unit direction, if there is a background.
+  bool has_background() const { return !seen_.empty(); }
   Rgb background(const Vec3& direction) const;
 
  private:
   std::vector<std::unique_ptr<Light>> lights_;
-  std::vector<std::uint32_t> punctual_, sampled_, surrounding_;
+  std::vector<std::uint32_t> punctual_, sampled_, surrounding_, seen_;
   std::vector<std::uint32_t> many_;  ///< what by_power_ chooses among
   DiscreteDistribution by_power_;
   std::unordered_map<std::uint32_t, std::uint32_t> mesh_lights_;  ///< by instance

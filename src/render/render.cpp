@@ -12,6 +12,7 @@
 #include <mutex>
 #include <optional>
 
+#include "render/ambient_occlusion.h"
 #include "render/aovs/aov.h"
 #include "render/bounces.h"
 #include "render/camera.h"
@@ -42,6 +43,7 @@ struct Frame {
   std::vector<const Aov*> aovs;
   ShadowQuery shadow_query;
   FilterSampler filter;
+  bool looks_around;
 
   bool cancelled() const { return options.cancel && options.cancel->load(std::memory_order_relaxed); }
 };
@@ -57,7 +59,8 @@ class TileRenderer {
   explicit TileRenderer(const Frame& frame)
       : frame_(frame),
         light_rays_(frame.lights, frame.options, DirectLight(frame.world, frame.shadow_query)),
-        bounces_(frame.world, frame.lights, frame.options) {
+        bounces_(frame.world, frame.lights, frame.options),
+        ambient_occlusion_(frame.world, frame.options) {
     stats_.lights.resize(frame.lights.size());
   }
 
@@ -66,6 +69,7 @@ class TileRenderer {
     for (std::uint32_t index = range.begin; index < range.end && !frame_.cancelled(); ++index) {
       look(index);
       shade();
+      if (frame_.looks_around) ambient_occlusion_.trace(index, tile_);
       follow_paths(index);
       for (std::size_t i = 0; i < tile_.samples.size(); ++i) {
         const Pixel pixel = tile_.pixels[i];
@@ -119,7 +123,7 @@ class TileRenderer {
       CameraSample& sample = tile_.samples[i];
       tile_.active[i] = hits_[i].valid();
       if (!tile_.active[i]) {
-        sample.opaque = frame_.lights.surrounds();
+        sample.opaque = frame_.lights.has_background();
         if (sample.opaque) sample.radiance = frame_.lights.background(glm::normalize(load(rays_[i].direction)));
         continue;
       }
@@ -146,6 +150,7 @@ class TileRenderer {
   const Frame& frame_;
   LightRays light_rays_;
   Bounces bounces_;
+  AmbientOcclusion ambient_occlusion_;
   RenderStats stats_;
   TileSamples tile_;
   std::vector<Ray> rays_;
@@ -293,7 +298,8 @@ Status render(const World& world, const View& view, const RenderOptions& options
                        window,
                        aovs,
                        {options.kernel, options.tracer, options.count_work, per_ray},
-                       FilterSampler(options.filter)};
+                       FilterSampler(options.filter),
+                       std::any_of(aovs.begin(), aovs.end(), [](const Aov* aov) { return aov->looks_around; })};
 
   prepare_image(frame, image);
   stats = RenderStats();

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct RenderOptions {
   std::uint32_t light_samples = 1;
   std::uint32_t bounces = 0;  ///< of light between the lights and what the camera sees, after the first
   PixelFilter filter = PixelFilter::box;
+  float ao_distance = std::numeric_limits<float>::infinity();  ///< how near the AOV "ao" looks
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;  ///< names of known_aovs()
   KernelId kernel;                ///< of camera rays, and of shadow rays if there is no tracer

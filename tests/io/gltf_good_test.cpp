@@ -239,10 +239,15 @@ TEST(GltfGood, FramingCameraSeesTheSceneAndTheLightShinesWithIt) {
     ASSERT_LT(local[2], 0);
     EXPECT_LT(std::hypot(local[0], local[1]), -local[2] * std::tan(camera.yfov / 2));
   }
-  const Light light = default_light(camera);
-  EXPECT_EQ(light.type, LightType::directional);
+  const std::vector<Light> lights = default_lights(scene, camera);
+  ASSERT_EQ(lights.size(), 2u);
+  EXPECT_EQ(lights[0].type, LightType::directional);
+  EXPECT_EQ(lights[1].type, LightType::point);
   double forward = 0;
-  for (std::size_t r = 0; r < 3; ++r) forward -= light.direction[r] * camera.to_world[r][2];
+  for (std::size_t r = 0; r < 3; ++r) {
+    forward -= lights[0].direction[r] * camera.to_world[r][2];
+    EXPECT_EQ(lights[1].position[r], camera.to_world[r][3]);
+  }
   EXPECT_GT(forward, 0.5);
 }
 

@@ -47,7 +47,7 @@ Status load(const char* path, const char* setup_path, io::SceneFile& scene, View
                 : scene.cameras.empty() ? io::framing_camera(scene)
                                         : scene.cameras.front();
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
-  if (view.lights.empty()) view.lights = {io::default_light(view.camera)};
+  if (view.lights.empty()) view.lights = io::default_lights(scene, view.camera);
   for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
   add_lamps(view);
   return {};

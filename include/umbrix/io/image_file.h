@@ -23,7 +23,7 @@ struct Image {
 };
 
 enum class PixelType { half, single };
-enum class ToneMap { none, srgb, aces };
+enum class ToneMap { none, srgb, aces, agx };
 
 struct WriteOptions {
   PixelType pixel_type = PixelType::half;  ///< EXR; depths (Z, *.Z) are floats always, large halves end at 65504

@@ -81,6 +81,7 @@ struct Light {
   std::array<Double3, 2> half_edges{{{0.5, 0, 0}, {0, 0.5, 0}}};  ///< of rectangles, orthogonal to each other
   float radius = 0;                                               ///< of spheres, which shine outwards
   std::shared_ptr<const EnvironmentMap> environment;              ///< null: the same from everywhere
+  bool visible = true;         ///< of an environment: the camera sees it where nothing else is
   double rotation = 0;         ///< of an environment about +y, in radians, counter-clockwise seen from above
   std::uint32_t instance = 0;  ///< of meshes, in SceneFile::instances
 };
@@ -175,8 +176,9 @@ UMBRIX_API float default_intensity(const SceneFile& scene, const Double3& positi
 /// A camera that frames the scene, for files that have none.
 UMBRIX_API Camera framing_camera(const SceneFile& scene);
 
-/// A directional light of pi lux over the camera's left shoulder, for files that have none.
-UMBRIX_API Light default_light(const Camera& camera);
+/// Lights for files that have none: a sun over the camera's left shoulder, and a lamp at the camera, so that what is
+/// seen is never black, in a closed room neither.
+UMBRIX_API std::vector<Light> default_lights(const SceneFile& scene, const Camera& camera);
 
 /// A light of type mesh for each instance whose material emits: its triangles shine on the side of their normals, on
 /// both if the material is double-sided, with the radiance `emission`. It has the first name there is of instance, mesh

@@ -30,7 +30,8 @@ struct Aov {
   bool counts_work;   ///< needs node and primitive tests of each ray, which makes rendering slower
   double (*contribute)(const CameraSample& sample, double* values);  ///< returns the sample's weight; 0: nothing
   HeatMapStyle heat_map = HeatMapStyle::none;
-  const char* unit = "";  ///< what is shown, for the legend of a heat map
+  const char* unit = "";      ///< what is shown, for the legend of a heat map
+  bool looks_around = false;  ///< needs CameraSample::openness
 };
 
 /// R, G, B, A; always the first.
