@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "render/vec.h"
 
@@ -37,19 +38,29 @@ double weight(PixelFilter filter, double x) {
 
 }  // namespace
 
-FilterSampler::FilterSampler(PixelFilter filter) : radius_(radius_of(filter)) {
-  for (std::size_t i = 1; i <= kSteps; ++i) {
-    sums_[i] = sums_[i - 1] + weight(filter, (static_cast<double>(i) - 0.5) / kSteps);
+FilterSampler::FilterSampler(PixelFilter filter) {
+  constexpr std::size_t kParts = 16 * kSteps;
+  const auto middle = [](std::size_t part) { return (static_cast<double>(part) + 0.5) / kParts; };
+  double total = 0;
+  for (std::size_t part = 0; part < kParts; ++part) total += weight(filter, middle(part));
+  double below = 0;
+  std::size_t next = 1;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    const double here = weight(filter, middle(part));
+    for (; next < kSteps && below + here > total * static_cast<double>(next) / kSteps; ++next) {
+      const double rest = (total * static_cast<double>(next) / kSteps - below) / here;
+      quantiles_[next] = radius_of(filter) * (static_cast<double>(part) + rest) / kParts;
+    }
+    below += here;
   }
-  for (double& sum : sums_) sum /= sums_[kSteps];
+  quantiles_[kSteps] = radius_of(filter);
 }
 
 double FilterSampler::offset(double u) const {
-  const double wanted = std::abs(2 * u - 1);
-  const auto above = std::upper_bound(sums_.begin() + 1, sums_.end() - 1, wanted);
-  const double below = *(above - 1);
-  const double steps = static_cast<double>(above - 1 - sums_.begin()) + (wanted - below) / (*above - below);
-  return std::copysign(radius_ * steps / kSteps, u - 0.5);
+  const double scaled = std::abs(2 * u - 1) * kSteps;
+  const auto below = std::min(static_cast<std::size_t>(scaled), kSteps - 1);
+  const double distance = glm::mix(quantiles_[below], quantiles_[below + 1], scaled - static_cast<double>(below));
+  return std::copysign(distance, u - 0.5);
 }
 
 }  // namespace umbrix::render

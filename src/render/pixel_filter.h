@@ -25,10 +25,10 @@ class FilterSampler {
   double offset(double u) const;
 
  private:
-  static constexpr std::size_t kSteps = 512;
+  static constexpr std::size_t kSteps = 1024;
 
-  double radius_;
-  std::array<double, kSteps + 1> sums_{};  ///< of the weight, from the centre outwards; ends at 1
+  /// From the centre outwards: within these pixels of it are equal steps of the weight. Linear in between.
+  std::array<double, kSteps + 1> quantiles_{};
 };
 
 }  // namespace umbrix::render

@@ -44,7 +44,8 @@ struct LightStats {
   }
 };
 
-/// What a render did. Everything but the seconds is the same for any number of threads.
+/// What a render did. Everything but the seconds is the same for any number of threads; of routes that holds if work
+/// is counted.
 struct RenderStats {
   std::uint64_t camera_rays = 0;
   std::uint64_t camera_hits = 0;
