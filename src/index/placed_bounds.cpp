@@ -3,7 +3,7 @@
 #include "index/placed_bounds.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "core/transform.h"
 
@@ -21,19 +21,14 @@ class Farthest {
   }
 
  private:
-  static constexpr double kNone = -std::numeric_limits<double>::infinity();
+  static constexpr float kNone = -std::numeric_limits<float>::infinity();
 
-  /// No vertex in the box has more: the rounding of vertices and of this sum is far less than 2^-22.
-  double most(const BvhNode& node, std::uint32_t lane) const {
+  /// No vertex in the box has more: rounding keeps the order of numbers, in each product and sum.
+  float most(const BvhNode& node, std::uint32_t lane) const {
     if (node.lower[0][lane] > node.upper[0][lane]) return kNone;
-    double sum = row_[3], terms = std::abs(row_[3]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = row_[axis] * static_cast<double>(node.lower[axis][lane]);
-      const double high = row_[axis] * static_cast<double>(node.upper[axis][lane]);
-      sum += std::max(low, high);
-      terms += std::max(std::abs(low), std::abs(high));
-    }
-    return sum + 0x1p-22 * terms + 0x1p-140;
+    Vec3 corner;
+    for (int axis = 0; axis < 3; ++axis) corner[axis] = (row_[axis] < 0 ? node.lower : node.upper)[axis][lane];
+    return placed(row_, corner);
   }
 
   void visit_leaf(const TriangleRows& rows) {
@@ -45,12 +40,12 @@ class Farthest {
   // No deeper than the hierarchy.
   void visit(std::uint32_t index) {
     const BvhNode& node = bvh_.node(index);
-    double bounds[kBvhWidth];
+    float bounds[kBvhWidth];
     for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) bounds[lane] = most(node, lane);
     // The farthest first.
     for (;;) {
       const auto farthest = std::max_element(bounds, bounds + kBvhWidth);
-      if (*farthest <= static_cast<double>(best_)) return;
+      if (*farthest <= best_) return;
       const std::uint32_t child = node.child[farthest - bounds];
       *farthest = kNone;
       if ((child & BvhNode::kLeaf) != 0)
@@ -62,7 +57,7 @@ class Farthest {
 
   const TriangleBvh& bvh_;
   double row_[4];
-  float best_ = -std::numeric_limits<float>::infinity();
+  float best_ = kNone;
 };
 
 }  // namespace
