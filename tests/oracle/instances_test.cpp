@@ -7,12 +7,16 @@
 #include <cstring>
 #include <optional>
 
-#include "instanced_meshes.h"
+#include "cases/instanced_meshes.h"
 #include "oracle/brute_force.h"
 #include "test_rays.h"
 
 namespace umbrix {
 namespace {
+
+using cases::InstancedMeshes;
+using cases::kPlacings;
+using cases::Placing;
 
 constexpr std::uint64_t kSeed = 20261126;
 

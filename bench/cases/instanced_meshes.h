@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "cases/random.h"
-#include "oracle/exact_hit.h"
+#include "cases/meshes.h"
 #include "umbrix/umbrix.h"
 
-namespace umbrix {
+namespace umbrix::cases {
 
 /// What instances' transforms are like.
 enum class Placing {
@@ -38,7 +37,7 @@ class InstancedMeshes {
 
   std::uint32_t mesh_count() const { return static_cast<std::uint32_t>(world_.size()); }
   /// All triangles of the world in order, with those that nothing can hit.
-  const std::vector<oracle::Triangle>& triangles() const { return all_; }
+  const Triangles& triangles() const { return all_; }
   Primitive primitive(std::uint32_t triangle) const;
 
   /// At vertices, edges and insides of the world's triangles, along their planes, from their surfaces and from far off,
@@ -51,18 +50,18 @@ class InstancedMeshes {
  private:
   struct Part {
     bool is_instance;
-    Instance instance;                    ///< its prototype is 0 or 1
-    std::vector<oracle::Triangle> local;  ///< of a mesh
+    Instance instance;  ///< its prototype is 0 or 1
+    Triangles local;    ///< of a mesh
   };
 
   std::uint32_t mask_of(std::size_t part) const;
   OpacityTest opacity_of(std::size_t part) const;
 
-  std::vector<oracle::Triangle> prototypes_[2];
+  Triangles prototypes_[2];
   std::vector<Part> parts_;
-  std::vector<std::vector<oracle::Triangle>> world_;
-  std::vector<oracle::Triangle> all_;
+  std::vector<Triangles> world_;
+  Triangles all_;
   std::vector<std::uint32_t> targets_;  ///< triangles that are finite
 };
 
-}  // namespace umbrix
+}  // namespace umbrix::cases

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "instanced_meshes.h"
+#include "cases/instanced_meshes.h"
 
 #include <cmath>
 #include <limits>
 
-#include "cases/meshes.h"
-#include "judge/judge.h"
-
-namespace umbrix {
+namespace umbrix::cases {
 namespace {
-
-using cases::Float3;
-using cases::Random;
-using Triangles = std::vector<oracle::Triangle>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -84,6 +77,14 @@ bool is_finite(const oracle::Triangle& t) {
   return true;
 }
 
+MeshView mesh_of(const Triangles& triangles) {
+  MeshView mesh;
+  mesh.vertices = triangles.empty() ? nullptr : &triangles[0].v[0][0];
+  mesh.vertex_count = 3 * triangles.size();
+  mesh.triangle_count = triangles.size();
+  return mesh;
+}
+
 Triangles placed(const Triangles& local, const Instance& instance) {
   Triangles result(local.size());
   for (std::size_t i = 0; i < local.size(); ++i)
@@ -95,8 +96,7 @@ Triangles placed(const Triangles& local, const Instance& instance) {
 Triangles with_bad_ones(Triangles triangles, Random& random) {
   for (int i = 0; i < 3; ++i) {
     oracle::Triangle& t = triangles[random.below(triangles.size())];
-    t = cases::triangle(cases::vertex(t, 0), cases::vertex(t, 1),
-                        cases::between(cases::vertex(t, 0), cases::vertex(t, 1), 0.5f));
+    t = triangle(vertex(t, 0), vertex(t, 1), between(vertex(t, 0), vertex(t, 1), 0.5f));
   }
   triangles[random.below(triangles.size())].v[1][2] = kInfinity;
   return triangles;
@@ -113,8 +113,8 @@ std::string name_of(Placing placing) {
 
 InstancedMeshes::InstancedMeshes(Placing placing, std::uint64_t seed) {
   Random random(seed);
-  prototypes_[0] = with_bad_ones(cases::icosphere(2, 1, 0.3f, {0.1f, 0, 0}, random).triangles, random);
-  prototypes_[1] = cases::sheet(6, 1, 0.25f);
+  prototypes_[0] = with_bad_ones(icosphere(2, 1, 0.3f, {0.1f, 0, 0}, random).triangles, random);
+  prototypes_[1] = sheet(6, 1, 0.25f);
   for (std::uint32_t i = 0; i < 9; ++i) {
     Part part{i % 3 != 1, {}, {}};
     if (part.is_instance) {
@@ -123,7 +123,7 @@ InstancedMeshes::InstancedMeshes(Placing placing, std::uint64_t seed) {
       // The same place twice: what is hit is hit twice, and the first must be told.
       if (i == 8) part.instance = parts_[6].instance;
     } else {
-      part.local = i == 4 ? placed(prototypes_[0], parts_[3].instance) : cases::soup(40, 1, 0.5f, random);
+      part.local = i == 4 ? placed(prototypes_[0], parts_[3].instance) : soup(40, 1, 0.5f, random);
     }
     world_.push_back(part.is_instance ? placed(prototypes_[part.instance.prototype], part.instance) : part.local);
     parts_.push_back(std::move(part));
@@ -144,12 +144,12 @@ OpacityTest InstancedMeshes::opacity_of(std::size_t part) const {
 
 Status InstancedMeshes::build_instanced(Scene& scene) const {
   for (const Triangles& prototype : prototypes_)
-    if (Status status = scene.add_prototype(judge::mesh_of(prototype)); !status) return status;
+    if (Status status = scene.add_prototype(mesh_of(prototype)); !status) return status;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Instance instance = parts_[i].instance;
     instance.mask = mask_of(i);
     instance.opacity = opacity_of(i);
-    MeshView mesh = judge::mesh_of(parts_[i].local);
+    MeshView mesh = mesh_of(parts_[i].local);
     mesh.mask = instance.mask;
     mesh.opacity = instance.opacity;
     std::uint32_t number = Primitive::kNone;
@@ -163,7 +163,7 @@ Status InstancedMeshes::build_instanced(Scene& scene) const {
 
 Status InstancedMeshes::build_flat(Scene& scene) const {
   for (std::size_t i = 0; i < world_.size(); ++i) {
-    MeshView mesh = judge::mesh_of(world_[i]);
+    MeshView mesh = mesh_of(world_[i]);
     mesh.mask = mask_of(i);
     mesh.opacity = opacity_of(i);
     if (Status status = scene.add(mesh); !status) return status;
@@ -179,25 +179,23 @@ Primitive InstancedMeshes::primitive(std::uint32_t triangle) const {
 
 std::vector<Ray> InstancedMeshes::rays(std::size_t count, std::uint64_t seed) const {
   Random random(seed);
-  const auto point = [&]() -> Float3 { return cases::point_on(all_[targets_[random.below(targets_.size())]], random); };
+  const auto point = [&]() -> Float3 { return point_on(all_[targets_[random.below(targets_.size())]], random); };
   std::vector<Ray> rays(count);
   for (std::size_t i = 0; i < count; ++i) {
     const oracle::Triangle& t = all_[targets_[random.below(targets_.size())]];
-    const Float3 target = cases::point_on(t, random);
+    const Float3 target = point_on(t, random);
     Float3 origin = point();  // on another triangle
     switch (i % 6) {
       case 0:
         break;
       case 1:  // in the triangle's plane, or nearly
-        origin = cases::add(cases::vertex(t, 0), cases::scale(cases::subtract(cases::vertex(t, 1), cases::vertex(t, 2)),
-                                                              random.uniform(-2, 2)));
+        origin = add(vertex(t, 0), scale(subtract(vertex(t, 1), vertex(t, 2)), random.uniform(-2, 2)));
         break;
       case 2:  // near by, with the triangle's own size
-        origin = cases::add(
-            target, cases::scale(random.direction(), 3 * std::abs(cases::vertex(t, 1)[0] - cases::vertex(t, 0)[0])));
+        origin = add(target, scale(random.direction(), 3 * std::abs(vertex(t, 1)[0] - vertex(t, 0)[0])));
         break;
       case 3:  // from afar
-        origin = cases::add(target, cases::scale(random.direction(), random.magnitude(-2, 12)));
+        origin = add(target, scale(random.direction(), random.magnitude(-2, 12)));
         break;
       case 4:  // along an axis
         origin = target;
@@ -206,7 +204,7 @@ std::vector<Ray> InstancedMeshes::rays(std::size_t count, std::uint64_t seed) co
       default:
         origin = random.in_cube(3);
     }
-    rays[i] = cases::ray_to(origin, target, 0, random.chance(0.5) ? kInfinity : 1);
+    rays[i] = ray_to(origin, target, 0, random.chance(0.5) ? kInfinity : 1);
     if (random.chance(0.1)) rays[i].tmax = std::nextafter(1.0f, random.chance(0.5) ? 2.0f : 0.0f);
     if (random.chance(0.1)) rays[i].tmin = random.chance(0.5) ? -kInfinity : -0.5f;
     if (random.chance(0.01)) rays[i].direction[1] = random.chance(0.5) ? kInfinity : std::nanf("");
@@ -214,4 +212,4 @@ std::vector<Ray> InstancedMeshes::rays(std::size_t count, std::uint64_t seed) co
   return rays;
 }
 
-}  // namespace umbrix
+}  // namespace umbrix::cases
