@@ -25,7 +25,8 @@ Json bounds(const std::vector<render::WorldMesh>& meshes) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   io::Float3 lower = {kInfinity, kInfinity, kInfinity}, upper = {-kInfinity, -kInfinity, -kInfinity};
   for (const render::WorldMesh& mesh : meshes) {
-    for (const io::Float3& position : mesh.positions) {
+    for (std::size_t i = 0; i < mesh.mesh->positions.size(); ++i) {
+      const io::Float3 position = mesh.position(i);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         lower[axis] = std::min(lower[axis], position[axis]);
         upper[axis] = std::max(upper[axis], position[axis]);
@@ -124,7 +125,7 @@ Status run(const std::string& path, bool json) {
   if (Status status = io::load_scene(path, scene); !status) return status;
   std::vector<render::WorldMesh> meshes;
   std::vector<std::string> notes;
-  if (Status status = render::flatten(scene, meshes, notes); !status) return status;
+  if (Status status = render::flatten(scene, meshes, notes, render::Instancing::share); !status) return status;
   const Json description = describe(scene, meshes, notes);
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
   return print_result(json ? description.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'

@@ -156,6 +156,12 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
   add_choice<BuildQuality>(command, "--build-quality", a.build_quality,
                            {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}},
                            "How much time the tree may take [high]");
+  add_choice<render::Instancing>(command, "--instances", a.instancing,
+                                 {{"auto", render::Instancing::automatic},
+                                  {"flatten", render::Instancing::flatten},
+                                  {"share", render::Instancing::share}},
+                                 "Whether instances share their mesh: takes little memory and more time, and never "
+                                 "changes the picture; auto: in large scenes [auto]");
   command
       .add_option_function<std::string>(
           "--simd",

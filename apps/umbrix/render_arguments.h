@@ -51,6 +51,7 @@ struct RenderArguments {
   KernelId kernel;
   std::string kernel_name = "auto";
   std::string simd_target;  ///< empty: the best
+  render::Instancing instancing = render::Instancing::automatic;
   BuildQuality build_quality = BuildQuality::high;
   int threads = 0;                                      ///< 0: all that are allowed
   std::uint64_t memory_limit = default_memory_limit();  ///< bytes; 0: none

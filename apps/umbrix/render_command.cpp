@@ -91,7 +91,7 @@ Status build(RenderJob& job) {
   set_phase("building the tree");
   BuildOptions options;
   options.quality = job.arguments.build_quality;
-  Status status = render::build_world(job.scene, options, job.world);
+  Status status = render::build_world(job.scene, options, job.world, job.arguments.instancing);
   if (status.ok()) {
     const bool automatic = job.arguments.kernel_name == "auto";
     status = automatic ? job.tracer.start(job.world.scene) : job.world.scene.prepare(job.arguments.kernel);

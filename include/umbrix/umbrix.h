@@ -5,6 +5,7 @@
 
 #include "umbrix/executor.h"
 #include "umbrix/frame.h"
+#include "umbrix/instance.h"
 #include "umbrix/kernel.h"
 #include "umbrix/mesh.h"
 #include "umbrix/ray.h"

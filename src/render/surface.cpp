@@ -113,7 +113,7 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   const WorldMesh& mesh = world.meshes[hit.primitive.mesh];
   const std::array<std::uint32_t, 3>& indices = mesh.mesh->triangles[hit.primitive.triangle];
   Corners corners;
-  for (std::size_t i = 0; i < 3; ++i) corners.p[i] = to_vec3(mesh.positions[indices[i]]);
+  for (std::size_t i = 0; i < 3; ++i) corners.p[i] = to_vec3(mesh.position(indices[i]));
   const Vec3 normal = glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0]);
   const double area = glm::length(normal);
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/shared_meshes.h"
 #include "umbrix/io/scene_file.h"
 #include "umbrix/scene.h"
 
@@ -13,19 +14,25 @@ namespace umbrix::render {
 /// One instance in world space. Each position is transformed in double and rounded once to float, so a vertex
 /// shared by triangles (or by meshes with equal transforms) has equal bits everywhere.
 struct WorldMesh {
-  std::uint32_t instance = 0;         ///< in SceneFile::instances
-  const io::Mesh* mesh = nullptr;     ///< the triangles, normals and texture coordinates
-  std::vector<io::Float3> positions;  ///< world space
+  std::uint32_t instance = 0;      ///< in SceneFile::instances
+  const io::Mesh* mesh = nullptr;  ///< the triangles, normals and texture coordinates
+  const io::Transform* to_world = nullptr;
+  std::vector<io::Float3> positions;  ///< world space; empty if it shares its mesh
   bool mirrored = false;              ///< the transform turns counter-clockwise triangles into clockwise ones
 
-  /// The triangles as Scene::add and other tracers want them; valid while this and the file live.
+  /// A vertex in world space.
+  io::Float3 position(std::size_t vertex) const noexcept;
+
+  /// If it does not share its mesh: the triangles as Scene::add and other tracers want them; valid while this and the
+  /// file live.
   MeshView view() const noexcept;
 };
 
 /// The instances that are there, in file order. An alpha-masked mesh whose constant alpha is below the cut-off is
 /// not there, for any ray; a blended one is opaque (`notes` says so, one line for each kind of simplification).
-/// `file` must outlive the result. resource_limit if memory runs out.
-Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes);
+/// Those that share their mesh get no positions. `file` must outlive the result. resource_limit if memory runs out.
+Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes,
+               Instancing instancing = Instancing::flatten);
 
 /// What rays meet and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
 struct World {
@@ -37,6 +44,7 @@ struct World {
 
 /// Flattens and builds; `file` must outlive the world. Fails as flatten, Scene::add and Scene::commit do, naming
 /// the file.
-Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out);
+Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out,
+                   Instancing instancing = Instancing::automatic);
 
 }  // namespace umbrix::render

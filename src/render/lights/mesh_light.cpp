@@ -74,7 +74,7 @@ class MeshLight final : public Light {
   struct Shape {
     Shape(const WorldMesh& mesh, std::size_t number) {
       const std::array<std::uint32_t, 3>& vertices = mesh.mesh->triangles[number];
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = to_vec3(mesh.positions[vertices[k]]);
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = to_vec3(mesh.position(vertices[k]));
       const Vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
       twice_area = glm::length(cross);
       normal = (mesh.mirrored ? -cross : cross) / twice_area;
