@@ -22,7 +22,7 @@ struct Rule {
   const char* path;
   Kind kind;
   const char* target = nullptr;  // what an index counts; null: anything that fits 31 bits
-  std::size_t length = 0;        // of numbers
+  std::size_t length = 0;        // of numbers; 0: any
   bool required = false;
 };
 
@@ -63,6 +63,9 @@ constexpr Rule kBodyRules[] = {
     {"meshes[].primitives[].material", Kind::index, "materials"},
     {"meshes[].primitives[].mode", Kind::index},
     {"meshes[].primitives[].targets[]{}", Kind::index, "accessors"},
+    {"meshes[].weights", Kind::numbers},
+    {"skins[].joints[]", Kind::index, "nodes"},
+    {"skins[].inverseBindMatrices", Kind::index, "accessors"},
 
     {"materials[].pbrMetallicRoughness", Kind::object},
     {"materials[].pbrMetallicRoughness.baseColorFactor", Kind::numbers, nullptr, 4},
@@ -97,11 +100,15 @@ constexpr Rule kBodyRules[] = {
     {"nodes[].children[]", Kind::index, "nodes"},
     {"nodes[].mesh", Kind::index, "meshes"},
     {"nodes[].camera", Kind::index, "cameras"},
+    {"nodes[].skin", Kind::index, "skins"},
+    {"nodes[].weights", Kind::numbers},
     {"nodes[].matrix", Kind::numbers, nullptr, 16},
     {"nodes[].translation", Kind::numbers, nullptr, 3},
     {"nodes[].rotation", Kind::numbers, nullptr, 4},
     {"nodes[].scale", Kind::numbers, nullptr, 3},
     {"nodes[].extensions.KHR_lights_punctual.light", Kind::index, kLights, 0, true},
+    {"nodes[].extensions.EXT_mesh_gpu_instancing.attributes", Kind::object, nullptr, 0, true},
+    {"nodes[].extensions.EXT_mesh_gpu_instancing.attributes{}", Kind::index, "accessors"},
     {"animations[].channels[].sampler", Kind::index, nullptr, 0, true},
     {"animations[].channels[].target", Kind::object, nullptr, 0, true},
     {"animations[].channels[].target.node", Kind::index, "nodes"},
@@ -113,8 +120,8 @@ constexpr Rule kBodyRules[] = {
     {"scene", Kind::index, "scenes"},
 };
 
-constexpr const char* kSupported[] = {"KHR_lights_punctual", "KHR_mesh_quantization",
-                                      "KHR_materials_emissive_strength"};
+constexpr const char* kSupported[] = {"KHR_lights_punctual", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
+                                      "EXT_mesh_gpu_instancing"};
 
 // The number of elements of the array at a dotted path; 0 if there is none.
 std::uint64_t array_size(const json& root, std::string_view path) {
@@ -206,11 +213,11 @@ class RuleCheck {
         if (!value.is_number()) fail("is not a number");
         break;
       case Kind::numbers:
-        if (!value.is_array() || value.size() != rule_.length) {
+        if (!value.is_array() || (rule_.length > 0 && value.size() != rule_.length)) {
           fail("must be {} numbers, has {}", rule_.length, value.is_array() ? value.size() : 1);
         }
         if (!std::all_of(value.begin(), value.end(), [](const json& n) { return n.is_number(); })) {
-          fail("must be {} numbers", rule_.length);
+          fail("must be numbers");
         }
         break;
       case Kind::size:
