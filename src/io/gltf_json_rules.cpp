@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/gltf_compression.h"
 #include "io/gltf_document.h"
 #include "io/load_error.h"
 
@@ -42,6 +43,14 @@ constexpr Rule kBodyRules[] = {
     {"bufferViews[].byteOffset", Kind::size},
     {"bufferViews[].byteLength", Kind::size, nullptr, 0, true},
     {"bufferViews[].byteStride", Kind::size},
+    {"buffers[].extensions.EXT_meshopt_compression.fallback", Kind::boolean},
+    {"bufferViews[].extensions.EXT_meshopt_compression.buffer", Kind::index, "buffers", 0, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteOffset", Kind::size},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteLength", Kind::size, nullptr, 0, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.byteStride", Kind::size, nullptr, 0, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.count", Kind::size, nullptr, 0, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.mode", Kind::string, nullptr, 0, true},
+    {"bufferViews[].extensions.EXT_meshopt_compression.filter", Kind::string},
     {"accessors[].bufferView", Kind::index, "bufferViews"},
     {"accessors[].byteOffset", Kind::size},
     {"accessors[].componentType", Kind::index, nullptr, 0, true},
@@ -63,6 +72,9 @@ constexpr Rule kBodyRules[] = {
     {"meshes[].primitives[].material", Kind::index, "materials"},
     {"meshes[].primitives[].mode", Kind::index},
     {"meshes[].primitives[].targets[]{}", Kind::index, "accessors"},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.bufferView", Kind::index, "bufferViews", 0, true},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes", Kind::object, nullptr, 0, true},
+    {"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes{}", Kind::index},
     {"meshes[].weights", Kind::numbers},
     {"skins[].joints[]", Kind::index, "nodes"},
     {"skins[].inverseBindMatrices", Kind::index, "accessors"},
@@ -256,8 +268,8 @@ void check_required_extensions(const json& root) {
     const auto name = element.get<std::string>();
     if (is_supported_extension(name)) continue;
     const char* advice = "";
-    if (name == "KHR_draco_mesh_compression") advice = "; gltf-transform can decompress the file";
-    if (name == "EXT_meshopt_compression") advice = "; gltfpack or gltf-transform can decompress the file";
+    if (name == kDraco) advice = " by this build; gltf-transform can decompress the file";
+    if (name == kMeshopt) advice = " by this build; gltfpack or gltf-transform can decompress the file";
     bad_input("requires the extension {}, which is not supported{}", printable(name, 64), advice);
   }
 }
@@ -296,6 +308,8 @@ void check_list_lengths(const json& root, const LoadLimits& limits) {
 }  // namespace
 
 bool is_supported_extension(std::string_view name) {
+  if (name == kMeshopt) return kReadsMeshopt;
+  if (name == kDraco) return kReadsDraco;
   return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
 }
 

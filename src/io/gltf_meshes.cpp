@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/accessor.h"
+#include "io/gltf_compression.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_shapes.h"
 #include "io/load_error.h"
@@ -114,6 +115,13 @@ class MeshConverter {
     if (mode < TINYGLTF_MODE_TRIANGLES) return conversion_.ignored.add("primitives of points or lines", label);
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return conversion_.ignored.add("primitives without POSITION", label);
+
+    if (primitive.extensions.count(kDraco) > 0 && !kReadsDraco &&
+        conversion_.model.accessors[static_cast<std::size_t>(position->second)].bufferView < 0) {
+      bad_input(
+          "{}: is compressed with {}, which is not supported by this build; gltf-transform can decompress the file",
+          label, kDraco);
+    }
 
     const std::uint64_t vertex_count = reader_.count(position->second);
     if (vertex_count >= kUnused) over_limit("{}: {} vertices, the limit is {}", label, vertex_count, kUnused - 1);

@@ -8,6 +8,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "io/gltf_compression.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
@@ -62,10 +63,13 @@ std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
 void load(const std::string& path, SceneFile& scene, LoadLimits limits, const std::string& animation) {
   limits.decoded_bytes = decoded_byte_limit(limits);
   const tinygltf::Model model = [&] {
-    const GltfDocument document = read_gltf_document(path, limits);
+    GltfDocument document = read_gltf_document(path, limits);
     const nlohmann::json root = parse_json(document.json, limits);
     check_gltf_json(root, limits);
-    return parse_gltf(path, document, root, limits);
+    tinygltf::Model parsed = parse_gltf(path, as_if_plain(std::move(document), root), root, limits);
+    if constexpr (kReadsMeshopt) decode_meshopt(root, parsed, limits.decoded_bytes);
+    if constexpr (kReadsDraco) decode_draco(root, parsed, limits.decoded_bytes);
+    return parsed;
   }();
   scene.path = path;
   scene.generator = model.asset.generator;
