@@ -125,7 +125,7 @@ std::vector<unsigned char> values_of(const draco::PointAttribute& attribute, std
                                      const tinygltf::Accessor& accessor, const std::string& label) {
   const auto components =
       static_cast<std::int8_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-  if (components < 1 || components > 4 || attribute.num_components() != components) {
+  if (components < 1 || components > 4 || int{attribute.num_components()} != int{components}) {
     bad_input("{}: the Draco data has {} components, the accessor is of another type", label,
               attribute.num_components());
   }

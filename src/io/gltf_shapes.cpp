@@ -102,7 +102,7 @@ void read_influences(const tinygltf::Primitive& primitive, Shape& shape, Accesso
 std::shared_ptr<Shape> read_shape(const tinygltf::Primitive& primitive, const Mesh& mesh, AccessorReader& reader,
                                   const std::string& label) {
   if (primitive.targets.empty() && primitive.attributes.count("JOINTS_0") == 0) return nullptr;
-  const auto shape = std::make_shared<Shape>();
+  auto shape = std::make_shared<Shape>();
   shape->positions = mesh.positions;
   shape->normals = mesh.normals;
   read_targets(primitive, *shape, reader, label);

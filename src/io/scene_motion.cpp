@@ -55,9 +55,8 @@ bool same(const std::vector<Float3>& a, const std::vector<Float3>& b) {
 
 void move_instance(SceneFile& scene, std::uint32_t number, const Transform& to_world, SceneChanges& changes) {
   Transform& place = scene.instances[number].to_world;
-  if (std::memcmp(&place, &to_world, sizeof place) == 0) return;
+  if (place != to_world) changes.instances.push_back(number);
   place = to_world;
-  changes.instances.push_back(number);
 }
 
 void apply(const SceneMotion& motion, NextPose& next, SceneFile& scene, SceneChanges& changes) {
