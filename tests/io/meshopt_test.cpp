@@ -9,7 +9,6 @@
 #include <random>
 
 #include "gltf_text.h"
-#include "refusal.h"
 
 namespace umbrix::io {
 namespace {
