@@ -5,6 +5,7 @@
 
 #include "heat_map_files.h"
 #include "memory_guard.h"
+#include "moving_scene.h"
 #include "progress.h"
 #include "stopwatch.h"
 #include "umbrix/version.h"
@@ -68,6 +69,7 @@ Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, 
 
 void count(RenderJob& job, FrameReport& report) {
   job.stats += report.stats;
+  job.seconds.build += report.seconds.build;
   job.seconds.render += report.seconds.render;
   job.seconds.write += report.seconds.write;
   if (!job.arguments.stats.empty()) job.reports.push_back(std::move(report));
@@ -78,7 +80,8 @@ Status render_all(RenderJob& job, Progress& progress) {
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     FrameReport report;
     report.frame = i;
-    Status status = trace(job, job.frames[i], progress, image, report);
+    Status status = move_world(job, job.frames[i], report);
+    if (status.ok()) status = trace(job, job.frames[i], progress, image, report);
     if (status.ok()) status = write_images(job, job.frames[i], image, report);
     if (!status) return status;
     count(job, report);

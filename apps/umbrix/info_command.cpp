@@ -94,6 +94,7 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"materials", scene.materials.size()},
           {"textures", scene.textures},
           {"animations", scene.animations},
+          {"moves_seconds", scene.motion ? Json(io::motion_span(scene)) : Json(nullptr)},
           {"bounds", bounds(meshes)},
           {"cameras", cameras(scene)},
           {"lights", lights(scene)},

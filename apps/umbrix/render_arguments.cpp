@@ -82,12 +82,17 @@ void add_sequence_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* frames = command
                             .add_option_function<std::string>(
                                 "--frames", [&a](const std::string& list) { choose_frames(a, list); },
-                                "Frames of a camera that moves, such as 1-3,5,7-20:2; -o then needs #### or %04d")
+                                "Frames of a scene that moves, such as 1-3,5,7-20:2; -o then needs #### or %04d")
                             ->type_name("LIST");
   add_real(
       command, "--fps", 0.001, 100000, [&a](double x) { a.fps = x; },
       "Frames a second: frame F shows a glTF animation at F/X seconds [24]")
       ->needs(frames);
+  command
+      .add_option("--animation", a.animation,
+                  "Play only this of the scene's animations, by name or number from 0 [all that fit together]")
+      ->needs(frames)
+      ->type_name("NAME|N");
 }
 
 void add_image_options(CLI::App& command, RenderArguments& a) {

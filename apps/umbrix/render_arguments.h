@@ -35,6 +35,7 @@ struct RenderArguments {
   std::string camera;                ///< name or number; empty: the first, or the setup's
   std::vector<int> frames;           ///< empty: a still
   double fps = 24;
+  std::string animation;     ///< name or number; empty: all
   std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;
   std::uint32_t samples = 1;

@@ -14,6 +14,7 @@
 #include "memory_guard.h"
 #include "memory_plan.h"
 #include "message.h"
+#include "moving_scene.h"
 #include "output_files.h"
 #include "render/threads.h"
 #include "render_job.h"
@@ -36,7 +37,8 @@ void warn(const RenderJob& job) {
   if (job.arguments.quiet) return;
   for (const std::string& text : job.scene.warnings) say_warning(text);
   for (const std::string& text : job.world.notes) say_warning(text);
-  if (job.frames.size() > 1 && !job.view.camera.motion) say_warning("the camera does not move: all frames are alike");
+  const bool moves = job.view.camera.motion || job.scene.motion;
+  if (job.frames.size() > 1 && !moves) say_warning("nothing moves: all frames are alike");
   if (!job.arguments.verbose) return;
   for (const std::string& text : job.scene.ignored) say(fmt::format("umbrix: ignored: {}", text));
 }
@@ -68,8 +70,8 @@ Status load(RenderJob& job) {
   if (!a.create_folders) {
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
-  if (Status status = io::load_scene(a.scene, job.scene, load_limits(a)); !status) return status;
-  if (Status status = choose_view(job.scene, a.setup, a.camera, a.mesh_lights, job.view, job.camera_file); !status) {
+  if (Status status = io::load_scene(a.scene, job.scene, load_limits(a), a.animation); !status) return status;
+  if (Status status = choose_view(job.scene, a.setup, a.camera, a.mesh_lights, job.view, job.origin); !status) {
     return status;
   }
   if (Status status = place_cameras(job); !status) return status;
@@ -84,20 +86,6 @@ Status load(RenderJob& job) {
   job.stats.lights.resize(job.view.lights.size());
   job.seconds.load = watch.seconds();
   return {};
-}
-
-Status build(RenderJob& job) {
-  const Stopwatch watch;
-  set_phase("building the tree");
-  BuildOptions options;
-  options.quality = job.arguments.build_quality;
-  Status status = render::build_world(job.scene, options, job.world, job.arguments.instancing);
-  if (status.ok()) {
-    const bool automatic = job.arguments.kernel_name == "auto";
-    status = automatic ? job.tracer.start(job.world.scene) : job.world.scene.prepare(job.arguments.kernel);
-  }
-  job.seconds.build = watch.seconds();
-  return status;
 }
 
 Status write_report(const RenderJob& job) {
@@ -120,7 +108,7 @@ Status run(const RenderArguments& a) {
   job.threads = a.threads > 0 ? a.threads : allowed_threads();
   Status status;
   const auto work = [&] {
-    status = build(job);
+    status = build_world(job);
     if (!status) return;
     warn(job);
     status = render_frames(job);

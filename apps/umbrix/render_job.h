@@ -8,6 +8,7 @@
 
 #include "render/render.h"
 #include "render_arguments.h"
+#include "view_choice.h"
 
 namespace umbrix::app {
 
@@ -29,7 +30,9 @@ struct Frame {
 struct FrameReport {
   std::size_t frame = 0;  ///< in RenderJob::frames
   render::RenderStats stats;
-  PhaseSeconds seconds;  ///< render and write
+  PhaseSeconds seconds;             ///< build, render and write
+  std::size_t moved_instances = 0;  ///< since the frame before, for which the tree was built anew
+  bool moved_lights = false;
 };
 
 /// One run of `umbrix render`, filled from phase to phase.
@@ -39,12 +42,13 @@ struct RenderJob {
   const RenderArguments& arguments;
   io::SceneFile scene;
   render::View view;          ///< the camera at rest
-  std::string camera_file;    ///< where the camera is from
+  ViewOrigin origin;          ///< of the view
   std::vector<Frame> frames;  ///< to render: what is asked for, but what is there already
   std::size_t skipped = 0;    ///< frames that are there already
   Size size;                  ///< of a frame
   int threads = 1;
   render::World world;
+  std::size_t trees_built = 0;
   FrameTracer tracer;                ///< of shadow rays, unless a kernel was asked for
   std::vector<FrameReport> reports;  ///< kept for --stats only
   render::RenderStats stats;         ///< of all frames

@@ -134,10 +134,14 @@ Json frames(const RenderJob& job) {
   Json list = Json::array();
   for (const FrameReport& report : job.reports) {
     const Frame& frame = job.frames[report.frame];
-    Json entry = {{"frame", frame.number.value_or(0)},
-                  {"time", frame.seconds},
-                  {"outputs", output_files(frame.outputs, frame.heat_maps)},
-                  {"seconds", {{"render", report.seconds.render}, {"write", report.seconds.write}}}};
+    Json entry = {
+        {"frame", frame.number.value_or(0)},
+        {"time", frame.seconds},
+        {"outputs", output_files(frame.outputs, frame.heat_maps)},
+        {"moved_instances", report.moved_instances},
+        {"moved_lights", report.moved_lights},
+        {"seconds",
+         {{"build", report.seconds.build}, {"render", report.seconds.render}, {"write", report.seconds.write}}}};
     add_rays(job, report.stats, report.seconds.render, entry);
     list.push_back(entry);
   }
@@ -203,6 +207,7 @@ std::string stats_text(const RenderJob& job) {
   if (!a.frames.empty()) {
     stats["fps"] = a.fps;
     stats["skipped_frames"] = job.skipped;
+    stats["trees_built"] = job.trees_built;
     stats["frames"] = frames(job);
   }
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.

@@ -29,9 +29,9 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
 }  // namespace
 
 Status choose_view(const io::SceneFile& scene, const std::string& setup_path, const std::string& camera,
-                   bool mesh_lights, render::View& view, std::string& camera_file) {
+                   bool mesh_lights, render::View& view, ViewOrigin& origin) {
   io::Setup setup;
-  camera_file = scene.path;
+  origin.camera_file = scene.path;
   if (!setup_path.empty()) {
     if (Status status = io::load_setup(setup_path, scene, setup); !status) return status;
   }
@@ -39,10 +39,11 @@ Status choose_view(const io::SceneFile& scene, const std::string& setup_path, co
     if (Status status = find_camera(scene, camera, view.camera); !status) return status;
   } else if (setup.camera) {
     view.camera = *setup.camera;
-    camera_file = setup_path;
+    origin.camera_file = setup_path;
   } else {
     view.camera = scene.cameras.empty() ? io::framing_camera(scene) : scene.cameras.front();
   }
+  origin.scene_lights = setup.lights.empty();
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
   if (mesh_lights) {
     for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));

@@ -9,6 +9,7 @@
 #include <deque>
 #include <optional>
 
+#include "io/gltf_compression.h"
 #include "io/input_file.h"
 #include "io/load_error.h"
 
@@ -21,6 +22,7 @@ struct ExternalBuffer {
   std::string file;
   std::string label;  // for messages
   std::uint64_t bytes = 0;
+  bool placeholder = false;  // stands for one that has no content
 };
 
 // What tinygltf's callbacks share.
@@ -75,6 +77,11 @@ BufferSource list_external_buffers(const std::string& scene_path, const GltfDocu
     const std::string label = fmt::format("buffers[{}]", number);
     const auto bytes = buffer.at("byteLength").get<std::uint64_t>();
     const std::string uri = buffer.value("uri", std::string());
+    if (is_placeholder(buffer)) {
+      source.waiting.push_back({{}, label, 1, true});
+      ++number;
+      continue;
+    }
     if (bytes == 0) bad_input("{}: byteLength is 0", label);
     if (uri.empty()) {
       if (!document.binary || number != 0) bad_input("{}: 'uri' is missing", label);
@@ -96,6 +103,10 @@ bool read_next(BufferSource& source, std::vector<unsigned char>& out) {
   if (source.error || source.waiting.empty()) return false;
   const ExternalBuffer buffer = std::move(source.waiting.front());
   source.waiting.pop_front();
+  if (buffer.placeholder) {
+    out.assign(buffer.bytes, 0);
+    return true;
+  }
   try {
     out = read_file(buffer.file, source.bytes_left);
     if (out.size() < buffer.bytes) bad_input("has {} bytes, the buffer needs {}", out.size(), buffer.bytes);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "umbrix/io/scene_file.h"
 
+#include <unistd.h>
+
 #include <exception>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
+#include "io/gltf_compression.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
@@ -41,7 +45,6 @@ void note_unread(Conversion& c) {
   const auto note = [&](const char* kind, std::size_t count) {
     if (count > 0) c.ignored.add(kind, "", count);
   };
-  note("skins (the meshes' own pose is used)", c.model.skins.size());
   note("textures (factors only are used)", c.model.textures.size());
   note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);
   for (const std::string& name : c.model.extensionsUsed) {
@@ -49,23 +52,35 @@ void note_unread(Conversion& c) {
   }
 }
 
-void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
+// What a small file can ask for by naming one accessor in many primitives has to end before the machine's memory does.
+std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
+  if (limits.decoded_bytes > 0) return limits.decoded_bytes;
+  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
+  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page_bytes);
+}
+
+void load(const std::string& path, SceneFile& scene, LoadLimits limits, const std::string& animation) {
+  limits.decoded_bytes = decoded_byte_limit(limits);
   const tinygltf::Model model = [&] {
-    const GltfDocument document = read_gltf_document(path, limits);
+    GltfDocument document = read_gltf_document(path, limits);
     const nlohmann::json root = parse_json(document.json, limits);
     check_gltf_json(root, limits);
-    return parse_gltf(path, document, root, limits);
+    tinygltf::Model parsed = parse_gltf(path, as_if_plain(std::move(document), root), root, limits);
+    if constexpr (kReadsMeshopt) decode_meshopt(root, parsed, limits.decoded_bytes);
+    if constexpr (kReadsDraco) decode_draco(root, parsed, limits.decoded_bytes);
+    return parsed;
   }();
   scene.path = path;
   scene.generator = model.asset.generator;
   scene.extensions_used = model.extensionsUsed;
   scene.textures = model.textures.size();
-  scene.animations = model.animations.size();
+  for (const tinygltf::Animation& animation_in : model.animations) scene.animations.push_back(animation_in.name);
 
-  Conversion conversion{model, limits, scene, {}, {}, {}};
+  Conversion conversion{model, limits, scene, {}, {}, {}, {}};
   convert_materials(conversion);
   convert_meshes(conversion);
-  convert_nodes(conversion);
+  convert_nodes(conversion, animation);
   note_unread(conversion);
   if (scene.instances.empty()) conversion.warnings.add("the scene shows no triangles", "");
   scene.ignored = conversion.ignored.lines();
@@ -81,14 +96,14 @@ std::uint64_t SceneFile::instanced_triangles() const noexcept {
   return count;
 }
 
-Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits) {
+Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits, const std::string& animation) {
   out = {};
   const auto failed = [&](StatusCode code, const std::string& what) {
     out = {};
     return Status(code, detail::printable(path) + ": " + what);
   };
   try {
-    detail::load(path, out, limits);
+    detail::load(path, out, limits, animation);
     return {};
   } catch (const detail::LoadError& e) {
     return failed(e.code, e.what);

@@ -87,6 +87,15 @@ class SceneFiller {
   std::vector<std::uint32_t> prototypes_;  ///< by the file's meshes
 };
 
+Status build_scene(const BuildOptions& options, World& world) {
+  world.scene = Scene();  // the old tree goes before the new one comes
+  SceneFiller filler(*world.file, world.scene);
+  for (const WorldMesh& mesh : world.meshes) {
+    if (Status status = filler.add(mesh); !status) return status;
+  }
+  return world.scene.commit(options);
+}
+
 Status named(const io::SceneFile& file, const Status& status) {
   return status.ok() ? status : Status(status.code(), fmt::format("{}: {}", file.path, status.message()));
 }
@@ -124,11 +133,18 @@ Status build_world(const io::SceneFile& file, const BuildOptions& options, World
   out = World();
   out.file = &file;
   if (Status status = flatten(file, out.meshes, out.notes, instancing); !status) return status;
-  SceneFiller filler(file, out.scene);
-  for (const WorldMesh& mesh : out.meshes) {
-    if (Status status = filler.add(mesh); !status) return named(file, status);
+  return named(file, build_scene(options, out));
+}
+
+Status move_world(const io::SceneChanges& changes, const BuildOptions& options, World& world) try {
+  if (changes.instances.empty()) return {};
+  for (WorldMesh& mesh : world.meshes) {
+    if (!std::binary_search(changes.instances.begin(), changes.instances.end(), mesh.instance)) continue;
+    mesh = place(*world.file, mesh.instance, mesh.positions.empty());
   }
-  return named(file, out.scene.commit(options));
+  return named(*world.file, build_scene(options, world));
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("no memory for the placed vertices");
 }
 
 }  // namespace umbrix::render

@@ -47,4 +47,8 @@ struct World {
 Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out,
                    Instancing instancing = Instancing::automatic);
 
+/// Follows a scene that io::pose_scene moved: places the instances that `changes` names anew, and builds the tree again
+/// if there are any; what stayed is kept. Fails as build_world, and leaves a world that nothing may be asked of.
+Status move_world(const io::SceneChanges& changes, const BuildOptions& options, World& world);
+
 }  // namespace umbrix::render

@@ -47,7 +47,7 @@ void check_mesh(const Mesh& mesh, std::size_t materials) {
   }
 }
 
-void check_scene(const SceneFile& scene) {
+void check_still(const SceneFile& scene) {
   for (const Mesh& mesh : scene.meshes) check_mesh(mesh, scene.materials.size());
   for (const io::Instance& instance : scene.instances) {
     promise(instance.mesh < scene.meshes.size(), "an instance's mesh exists");
@@ -55,6 +55,31 @@ void check_scene(const SceneFile& scene) {
   }
   for (const Camera& camera : scene.cameras) check_camera(camera);
   for (const Light& light : scene.lights) check_light(light);
+}
+
+// At any moment the scene is as whole as at rest, or stays as it was.
+void check_moments(const SceneFile& scene) {
+  if (!scene.motion) return;
+  const auto [first, last] = io::motion_span(scene);
+  promise(std::isfinite(first) && std::isfinite(last) && first <= last, "a scene's span is in order");
+  SceneFile moved = scene;
+  for (const double time : {first, last, first + 0.3 * (last - first), -1e30, 1e30, 0.0}) {
+    io::SceneChanges changes;
+    const Status status = io::pose_scene(moved, {time, time}, changes);
+    if (!status) check_refusal(status);
+    for (const std::uint32_t i : changes.instances)
+      promise(i < scene.instances.size(), "an instance that moved exists");
+    for (const std::uint32_t m : changes.meshes) {
+      promise(m < scene.meshes.size() && moved.meshes[m].positions.size() == scene.meshes[m].positions.size(),
+              "a mesh that moved keeps its vertices");
+    }
+    check_still(moved);
+  }
+}
+
+void check_scene(const SceneFile& scene) {
+  check_still(scene);
+  if (scene.instanced_triangles() <= 10000) check_moments(scene);
   for (const auto* lines : {&scene.ignored, &scene.warnings}) {
     for (const std::string& line : *lines) promise(is_plain(line), "remarks are plain text");
   }

@@ -73,6 +73,36 @@ Gltf with_quantized() {
   return g;
 }
 
+// A triangle of two joints, the second of which turns, with a morph target, many times over.
+Gltf with_motion() {
+  Gltf g;
+  const int positions = g.floats3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int joints =
+      g.accessor(bytes_of(std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), 5121, 3, "VEC4");
+  const int weights = g.accessor(bytes_of(std::vector<float>{.5f, .5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5126, 3, "VEC4");
+  std::vector<float> matrices(32, 0);
+  for (std::size_t i = 0; i < 32; i += i % 16 == 15 ? 1 : 5) matrices[i] = 1;
+  const int skinned = g.mesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+                              {"targets", {{{"POSITION", positions}}}}});
+  g.json["meshes"][0]["weights"] = {0.5};
+  g.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", g.accessor(bytes_of(matrices), 5126, 2, "MAT4")}}};
+  g.root({{"mesh", skinned}, {"skin", 0}});
+  g.root({{"children", {2}}});
+  g.json["nodes"].push_back({{"translation", {0, 1, 0}}});
+  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 1, 0});
+  const int input = g.accessor(bytes_of(std::vector<float>{0, 2}), 5126, 2, "SCALAR");
+  const int output = g.accessor(bytes_of(std::vector<float>{0, 1}), 5126, 2, "SCALAR");
+  g.json["animations"][0]["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", "STEP"}});
+  g.json["animations"][0]["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}});
+  const int mesh = g.mesh({{"attributes", {{"POSITION", positions}}}});
+  const int many = g.root({{"mesh", mesh}});
+  g.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  g.json["nodes"][static_cast<std::size_t>(many)]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", positions}};
+  g.animate(0, many, "translation", {0, 1}, {0, 0, 0, 1, 2, 3});
+  return g;
+}
+
 Gltf with_everything() {
   Gltf g = one_triangle();
   g.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "EXT_none"};
@@ -114,8 +144,8 @@ Gltf with_everything() {
 
 void write_scenes(const fs::path& out, const std::vector<std::string>& scene_paths) {
   Folder text(out / "gltf_text"), binary(out / "gltf_binary");
-  for (const Gltf& g :
-       {one_triangle(), with_mode(5), with_mode(6), with_mode(1), with_sparse(), with_quantized(), with_everything()}) {
+  for (const Gltf& g : {one_triangle(), with_mode(5), with_mode(6), with_mode(1), with_sparse(), with_quantized(),
+                        with_everything(), with_motion()}) {
     text.add(g.text());
     binary.add(g.glb());
   }

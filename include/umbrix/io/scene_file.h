@@ -118,7 +118,9 @@ UMBRIX_API Status camera_at(const Camera& camera, const Moment& moment, Camera& 
 /// file's; zeros if nothing does.
 UMBRIX_API std::array<double, 2> motion_span(const Camera& camera);
 
-/// What a file holds, after all checks.
+class SceneMotion;
+
+/// What a file holds, after all checks, at rest.
 struct SceneFile {
   std::string path;
   std::string generator;
@@ -131,7 +133,10 @@ struct SceneFile {
   std::vector<std::string> ignored;  ///< one line for each kind of thing the file has and we do not use
   std::vector<std::string> warnings;
   std::uint64_t textures = 0;
-  std::uint64_t animations = 0;
+  std::vector<std::string> animations;  ///< their names
+  /// What moves instances, lights and the shapes of meshes over the frames of a sequence (see pose_scene), shared by
+  /// copies; null if nothing does.
+  std::shared_ptr<const SceneMotion> motion;
 
   /// Triangles over all instances.
   UMBRIX_API std::uint64_t instanced_triangles() const noexcept;
@@ -153,7 +158,27 @@ struct LoadLimits {
 
 /// Reads .gltf or .glb (told apart by content). On failure `out` is empty and the message names the file and what is
 /// wrong in one line: bad_input, or resource_limit. Thread-safe for different `out`.
-UMBRIX_API Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits = {});
+///
+/// `animation` names the only one that is to move cameras and the scene, by its name or number from 0; invalid_argument
+/// if the file has none such. Without it all do, but those that move what an earlier one in the file moves.
+UMBRIX_API Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits = {},
+                             const std::string& animation = {});
+
+/// What pose_scene changed.
+struct SceneChanges {
+  std::vector<std::uint32_t> meshes;     ///< that have another shape, ascending
+  std::vector<std::uint32_t> instances;  ///< that have another place, or such a mesh, ascending
+  bool lights = false;                   ///< whether any has another place or direction
+};
+
+/// Moves a scene to a moment: the transforms of instances, the places of lights, the positions and normals of meshes.
+/// Nothing is added or removed, no array of another length, and the result does not depend on what moment the scene was
+/// at. Cameras stay: camera_at moves them. bad_input, in one line that names no file, if something has no place then;
+/// the scene is as before.
+UMBRIX_API Status pose_scene(SceneFile& scene, const Moment& moment, SceneChanges& changes);
+
+/// From the first to the last key of what moves the scene, in seconds; zeros if nothing does.
+UMBRIX_API std::array<double, 2> motion_span(const SceneFile& scene);
 
 /// Camera and lights from outside the scene file.
 struct Setup {
