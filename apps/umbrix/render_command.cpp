@@ -86,6 +86,14 @@ Status load(RenderJob& job) {
   return {};
 }
 
+Status read_textures(RenderJob& job) {
+  const Stopwatch watch;
+  set_phase("reading textures");
+  Status status = io::read_textures(job.scene, load_limits(job.arguments));
+  job.seconds.load += watch.seconds();
+  return status;
+}
+
 Status build(RenderJob& job) {
   const Stopwatch watch;
   set_phase("building the tree");
@@ -120,7 +128,8 @@ Status run(const RenderArguments& a) {
   job.threads = a.threads > 0 ? a.threads : allowed_threads();
   Status status;
   const auto work = [&] {
-    status = build(job);
+    status = read_textures(job);
+    if (status.ok()) status = build(job);
     if (!status) return;
     warn(job);
     status = render_frames(job);

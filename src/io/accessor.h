@@ -12,7 +12,7 @@ namespace umbrix::io::detail {
 
 /// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 sections 3.7.2.1 and 3.11, and
 /// KHR_mesh_quantization).
-enum class AccessorUse { position, normal, texcoord, key, rotation };
+enum class AccessorUse { position, normal, tangent, texcoord, color, key, rotation };
 
 /// Turns accessors into plain arrays: the only place that touches a file's buffers. Strided, normalised, quantised and
 /// sparse forms are decoded; each read is checked against its view and each view against its buffer, before memory is
@@ -27,6 +27,9 @@ class AccessorReader {
 
   std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use);
   std::vector<std::array<float, 2>> texcoords(int accessor);
+  std::vector<std::array<float, 4>> tangents(int accessor);
+  /// Of three or four components; the fourth is 1 where there is none.
+  std::vector<std::array<float, 4>> colors(int accessor);
 
   /// An animation's times, in seconds, and rotations (x, y, z, w), as they stand in the file.
   std::vector<float> times(int accessor);
@@ -54,5 +57,8 @@ class AccessorReader {
   std::uint64_t zeros_left_;
   bool quantized_;
 };
+
+/// The bytes of a buffer view, such as an image's. Throws LoadError.
+std::vector<unsigned char> view_bytes(const tinygltf::Model& model, int view, const std::string& label);
 
 }  // namespace umbrix::io::detail

@@ -42,7 +42,6 @@ void note_unread(Conversion& c) {
     if (count > 0) c.ignored.add(kind, "", count);
   };
   note("skins (the meshes' own pose is used)", c.model.skins.size());
-  note("textures (factors only are used)", c.model.textures.size());
   note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);
   for (const std::string& name : c.model.extensionsUsed) {
     if (!is_supported_extension(name)) c.ignored.add("extension " + printable(name, 64), "");
@@ -59,10 +58,11 @@ void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
   scene.path = path;
   scene.generator = model.asset.generator;
   scene.extensions_used = model.extensionsUsed;
-  scene.textures = model.textures.size();
   scene.animations = model.animations.size();
 
   Conversion conversion{model, limits, scene, {}, {}, {}};
+  convert_textures(conversion);
+  convert_images(conversion);
   convert_materials(conversion);
   convert_meshes(conversion);
   convert_nodes(conversion);

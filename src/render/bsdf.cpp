@@ -35,13 +35,14 @@ Rgb evaluate_bsdf(const BsdfParameters& material, const Vec3& normal, const Vec3
   const Rgb base = material.base_color;
   const double metallic = material.metallic;
   const Rgb diffuse_color = base * (1 - metallic);
-  const Rgb f0 = glm::mix(Rgb(0.04), base, metallic);
+  const Rgb f0 = glm::mix(material.dielectric_f0, base, metallic);
+  const double f90 = glm::mix(material.dielectric_f90, 1.0, metallic);
   const double alpha = std::max(material.roughness * material.roughness, kSmallestAlpha);
 
   const Vec3 half = glm::normalize(wo + wi);
   const double view_half = std::clamp(glm::dot(wo, half), 0.0, 1.0);
   const double grazing = 1 - view_half;
-  const Rgb fresnel = f0 + (1.0 - f0) * (grazing * grazing * grazing * grazing * grazing);
+  const Rgb fresnel = f0 + (f90 - f0) * (grazing * grazing * grazing * grazing * grazing);
 
   const double normal_light = std::max(glm::dot(normal, wi), kSmallestCosine);
   const double normal_view = std::max(glm::dot(normal, wo), kSmallestCosine);

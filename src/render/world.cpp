@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <new>
 
+#include "render/materials/alpha.h"
 #include "render/vec.h"
 
 namespace umbrix::render {
@@ -23,8 +26,10 @@ bool mirrors(const io::Transform& m) {
          0;
 }
 
-bool invisible(const io::Material& material) {
-  return material.alpha_mode == io::AlphaMode::mask && material.alpha < material.alpha_cutoff;
+/// Whether alpha is known to let all rays through: textures have none above 1.
+bool invisible(const io::Material& material, const io::Mesh& mesh) {
+  if (material.alpha_mode == io::AlphaMode::blend) return material.alpha == 0;
+  return material.alpha_mode == io::AlphaMode::mask && material.alpha < material.alpha_cutoff && mesh.colors.empty();
 }
 
 WorldMesh place(const io::SceneFile& file, std::uint32_t instance) {
@@ -39,20 +44,34 @@ WorldMesh place(const io::SceneFile& file, std::uint32_t instance) {
 }
 
 void note_alpha(const io::SceneFile& file, std::vector<std::string>& notes) {
-  std::size_t blended = 0, masked_by_texture = 0;
-  for (const io::Material& material : file.materials) {
-    blended += material.alpha_mode == io::AlphaMode::blend;
-    masked_by_texture += material.alpha_mode == io::AlphaMode::mask && material.base_color_texture >= 0;
-  }
-  if (blended > 0) notes.push_back(fmt::format("{} blended materials are rendered opaque", blended));
-  if (masked_by_texture > 0) {
-    notes.push_back(fmt::format("{} alpha masks are taken from the material's constant alpha: textures are not read",
-                                masked_by_texture));
-  }
+  const auto blended = std::count_if(file.materials.begin(), file.materials.end(), [](const io::Material& material) {
+    return material.alpha_mode == io::AlphaMode::blend && material.alpha > 0;
+  });
+  if (blended == 0) return;
+  notes.push_back(
+      fmt::format("{} blended materials stop rays by chance, as their alpha says: more samples, less noise", blended));
 }
 
 Status named(const io::SceneFile& file, const Status& status) {
   return status.ok() ? status : Status(status.code(), fmt::format("{}: {}", file.path, status.message()));
+}
+
+/// Opacity tests of the placed meshes. Instances share those of their mesh.
+Status make_opacity(const io::SceneFile& file, const std::vector<WorldMesh>& meshes, std::vector<AlphaTest>& tests,
+                    std::vector<OpacityTest>& out) try {
+  std::map<const io::Mesh*, OpacityTest> known;
+  for (const WorldMesh& mesh : meshes) {
+    const auto [entry, is_new] = known.try_emplace(mesh.mesh);
+    if (is_new && !is_solid(file, *mesh.mesh)) {
+      const auto number = static_cast<std::uint64_t>(mesh.mesh - file.meshes.data());
+      if (Status status = make_alpha_test(file, *mesh.mesh, number, tests.emplace_back()); !status) return status;
+      entry->second = tests.back().test();
+    }
+    out.push_back(entry->second);
+  }
+  return {};
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("no memory for alpha");
 }
 
 }  // namespace
@@ -72,7 +91,7 @@ Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vect
   note_alpha(file, notes);
   for (std::uint32_t i = 0; i < file.instances.size(); ++i) {
     const io::Mesh& mesh = file.meshes[file.instances[i].mesh];
-    if (mesh.triangles.empty() || invisible(file.materials[mesh.material])) continue;
+    if (mesh.triangles.empty() || invisible(file.materials[mesh.material], mesh)) continue;
     out.push_back(place(file, i));
   }
   return {};
@@ -84,8 +103,12 @@ Status build_world(const io::SceneFile& file, const BuildOptions& options, World
   out = World();
   out.file = &file;
   if (Status status = flatten(file, out.meshes, out.notes); !status) return status;
-  for (const WorldMesh& mesh : out.meshes) {
-    if (Status status = out.scene.add(mesh.view()); !status) return named(file, status);
+  std::vector<OpacityTest> opacity;
+  if (Status status = make_opacity(file, out.meshes, out.alpha, opacity); !status) return named(file, status);
+  for (std::size_t i = 0; i < out.meshes.size(); ++i) {
+    MeshView view = out.meshes[i].view();
+    view.opacity = opacity[i];
+    if (Status status = out.scene.add(view); !status) return named(file, status);
   }
   return named(file, out.scene.commit(options));
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "umbrix/io/scene_file.h"
+#include "umbrix/opacity.h"
 #include "umbrix/scene.h"
 
 namespace umbrix::render {
@@ -22,21 +23,22 @@ struct WorldMesh {
   MeshView view() const noexcept;
 };
 
-/// The instances that are there, in file order. An alpha-masked mesh whose constant alpha is below the cut-off is
-/// not there, for any ray; a blended one is opaque (`notes` says so, one line for each kind of simplification).
+/// The instances that are there, in file order. One that alpha hides for any ray, by what is known without textures, is
+/// not (`notes` has one line for each kind of simplification).
 /// `file` must outlive the result. resource_limit if memory runs out.
 Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes);
 
-/// What rays meet and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
+/// What rays meet (alpha included) and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
 struct World {
   const io::SceneFile* file = nullptr;
   std::vector<WorldMesh> meshes;
   std::vector<std::string> notes;
+  std::vector<AlphaTest> alpha;  ///< of the file's meshes that are not solid, by what the scene's meshes ask
   Scene scene;
 };
 
-/// Flattens and builds; `file` must outlive the world. Fails as flatten, Scene::add and Scene::commit do, naming
-/// the file.
+/// Flattens and builds; `file` must outlive the world, and its textures are used as far as they are read by then. Fails
+/// as flatten, Scene::add and Scene::commit do, naming the file.
 Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out);
 
 }  // namespace umbrix::render

@@ -40,7 +40,11 @@ void check_mesh(const Mesh& mesh, std::size_t materials) {
   const std::size_t vertices = mesh.positions.size();
   promise(!mesh.triangles.empty(), "a mesh has triangles");
   promise(mesh.normals.empty() || mesh.normals.size() == vertices, "normals match positions");
-  promise(mesh.texcoords.empty() || mesh.texcoords.size() == vertices, "texture coordinates match positions");
+  for (const auto& texcoords : mesh.texcoord_sets) {
+    promise(texcoords.empty() || texcoords.size() == vertices, "texture coordinates match positions");
+  }
+  promise(mesh.colors.empty() || mesh.colors.size() == vertices, "colours match positions");
+  promise(mesh.tangents.empty() || mesh.tangents.size() == vertices, "tangents match positions");
   promise(mesh.material < materials, "a mesh's material exists");
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) promise(v < vertices, "vertex indices are in range");

@@ -133,7 +133,7 @@ TEST(GltfGood, QuantizedAttributes) {
   const Mesh mesh = load(g.text()).meshes.at(0);
   EXPECT_EQ(mesh.positions, (std::vector<Float3>{{0, 0, 0}, {300, -20, 5}, {32767, -32768, 1}}));
   EXPECT_EQ(mesh.normals, (std::vector<Float3>{{1, 0, -1}, {0, 1, 0}, {0, 0, -1}}));
-  EXPECT_EQ(mesh.texcoords[2], (std::array<float, 2>{1, 0}));
+  EXPECT_EQ(mesh.texcoord_sets[0][2], (std::array<float, 2>{1, 0}));
 }
 
 TEST(GltfGood, NestedTransformsAndInstances) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// An emissive mesh: a triangle is chosen by its area, since all shine alike, then a point of it. Triangles shine on the
-// side of their normals, on both if the material is double-sided: as they are seen by the camera (Surface::emits).
+// An emissive mesh: a triangle is chosen by its area, then a point of it, which shines as its texture says. Triangles
+// shine on the side of their normals, on both if the material is double-sided: as they are seen by the camera
+// (Surface::emits).
 #include <algorithm>
 #include <cmath>
 
 #include "render/lights/light.h"
+#include "render/materials/material_at.h"
 #include "render/sampling/discrete_distribution.h"
 #include "render/sampling/spherical_triangle.h"
 
@@ -18,14 +20,16 @@ constexpr double kLeastSolidAngle = 1e-4, kMostSolidAngle = 6.22;
 
 class MeshLight final : public Light {
  public:
-  MeshLight(const io::Light& light, const World& world) : radiance_(radiance_of(light)) {
+  MeshLight(const io::Light& light, const World& world) : file_(*world.file), radiance_(radiance_of(light)) {
     // Meshes are in the order of instances. One that alpha hides is not in the world, and shines on nothing.
     const auto found =
         std::lower_bound(world.meshes.begin(), world.meshes.end(), light.instance,
                          [](const WorldMesh& mesh, std::uint32_t instance) { return mesh.instance < instance; });
     if (found == world.meshes.end() || found->instance != light.instance) return;
     mesh_ = &*found;
-    double_sided_ = world.file->materials[mesh_->mesh->material].double_sided;
+    const io::Material& material = file_.materials[mesh_->mesh->material];
+    double_sided_ = material.double_sided;
+    textured_ = material.emissive_texture.texture >= 0 || material.alpha_mode != io::AlphaMode::opaque;
     std::vector<double> areas;
     areas.reserve(mesh_->mesh->triangles.size());
     for (std::size_t i = 0; i < mesh_->mesh->triangles.size(); ++i) areas.push_back(Shape(*mesh_, i).area());
@@ -50,9 +54,9 @@ class MeshLight final : public Light {
       return arrival;
     }
     double solid_angle = 0;  // of the triangle, or as if all of it were seen as the point is
-    const Vec3 target = point_of(triangle, receiver, {choice.rest, u.y}, solid_angle);
-    arrival.to_light = target - receiver.point;
-    arrival.irradiance = radiance_ * (solid_angle / choice.probability);
+    const SamplePoint b = point_of(triangle, receiver, {choice.rest, u.y}, solid_angle);
+    arrival.to_light = triangle.at(b.x, b.y) - receiver.point;
+    arrival.irradiance = radiance_at(choice.index, b) * (solid_angle / choice.probability);
     arrival.normal = height > 0 ? triangle.normal : -triangle.normal;
     arrival.error = triangle.error();
     return arrival;
@@ -85,23 +89,31 @@ class MeshLight final : public Light {
     double twice_area;
   };
 
-  static Vec3 point_of(const Shape& triangle, const Receiver& receiver, const SamplePoint& u, double& solid_angle) {
+  /// The barycentric coordinates of a point.
+  static SamplePoint point_of(const Shape& triangle, const Receiver& receiver, const SamplePoint& u,
+                              double& solid_angle) {
     const SphericalTriangle seen(triangle.corners, receiver.origin);
     if (seen.solid_angle() > kLeastSolidAngle && seen.solid_angle() < kMostSolidAngle) {
       solid_angle = seen.solid_angle();
-      const SamplePoint b = seen.point(u);
-      return triangle.at(b.x, b.y);
+      return seen.point(u);
     }
     // Uniform in area (Turk 1990).
     const double root = std::sqrt(u.x);
-    const Vec3 target = triangle.at(root * (1 - u.y), root * u.y);
-    const Vec3 way = target - receiver.origin;
+    const SamplePoint b = {root * (1 - u.y), root * u.y};
+    const Vec3 way = triangle.at(b.x, b.y) - receiver.origin;
     const double distance2 = glm::dot(way, way);
     solid_angle = triangle.area() * std::abs(glm::dot(way, triangle.normal)) / (distance2 * std::sqrt(distance2));
-    return target;
+    return b;
   }
 
-  Rgb radiance_;
+  Rgb radiance_at(std::size_t triangle, const SamplePoint& b) const {
+    if (!textured_) return radiance_;
+    return emission_at({file_, *mesh_->mesh, static_cast<std::uint32_t>(triangle), {1 - b.x - b.y, b.x, b.y}});
+  }
+
+  const io::SceneFile& file_;
+  Rgb radiance_;  ///< of all points, or the factor of the texture
+  bool textured_ = false;
   const WorldMesh* mesh_ = nullptr;
   bool double_sided_ = false;
   DiscreteDistribution by_area_;
