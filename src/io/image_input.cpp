@@ -71,7 +71,7 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::string& path) {
 
 EncodedImage::EncodedImage(const std::vector<unsigned char>& bytes, std::uint64_t most_pixels) {
   const std::string_view reader = find_reader(kTextureFormats, bytes, "neither PNG nor JPEG");
-  if (reader == "png") check_png_chunks(bytes, bytes.size());
+  if (reader == "png") check_png_chunks(bytes, bytes.size(), true);
   if (reader == "jpeg") check_jpeg_scans(bytes);
   memory = std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<unsigned char*>(bytes.data()), bytes.size());
   input = OIIO::ImageInput::create(reader.data());
