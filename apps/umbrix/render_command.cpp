@@ -56,6 +56,7 @@ Status describe_plan(const RenderJob& job) {
 io::LoadLimits load_limits(const RenderArguments& a) {
   io::LoadLimits limits;
   if (a.memory_limit > 0) limits.file_bytes = std::min(limits.file_bytes, a.memory_limit);
+  limits.image_bytes = a.memory_limit;
   return limits;
 }
 
@@ -86,12 +87,13 @@ Status load(RenderJob& job) {
   return {};
 }
 
+/// What textures decode to is known only now.
 Status read_textures(RenderJob& job) {
   const Stopwatch watch;
   set_phase("reading textures");
-  Status status = io::read_textures(job.scene, load_limits(job.arguments));
+  if (Status status = io::read_textures(job.scene, load_limits(job.arguments)); !status) return status;
   job.seconds.load += watch.seconds();
-  return status;
+  return check_memory(job);
 }
 
 Status build(RenderJob& job) {

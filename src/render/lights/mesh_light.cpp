@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// An emissive mesh: a triangle is chosen by its area, then a point of it, which shines as its texture says. Triangles
-// shine on the side of their normals, on both if the material is double-sided: as they are seen by the camera
-// (Surface::emits).
+// An emissive mesh: a triangle is chosen by its area and brightness, then a point of it, which shines as its texture
+// says. Triangles shine on the side of their normals, on both if the material is double-sided: as they are seen by the
+// camera (Surface::emits).
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "render/lights/light.h"
 #include "render/materials/material_at.h"
@@ -30,10 +31,12 @@ class MeshLight final : public Light {
     const io::Material& material = file_.materials[mesh_->mesh->material];
     double_sided_ = material.double_sided;
     textured_ = material.emissive_texture.texture >= 0 || material.alpha_mode != io::AlphaMode::opaque;
-    std::vector<double> areas;
-    areas.reserve(mesh_->mesh->triangles.size());
-    for (std::size_t i = 0; i < mesh_->mesh->triangles.size(); ++i) areas.push_back(Shape(*mesh_, i).area());
-    by_area_ = DiscreteDistribution(areas);
+    std::vector<double> weights;
+    weights.reserve(mesh_->mesh->triangles.size());
+    for (std::size_t i = 0; i < mesh_->mesh->triangles.size(); ++i) {
+      weights.push_back(Shape(*mesh_, i).area() * (textured_ ? brightness(i) : 1));
+    }
+    by_power_ = DiscreteDistribution(weights);
   }
 
   static std::unique_ptr<Light> make(const io::Light& light, const World& world) {
@@ -42,11 +45,11 @@ class MeshLight final : public Light {
 
   Arrival sample(const Receiver& receiver, const SamplePoint& u) const override {
     Arrival arrival;
-    if (radiance_ == Rgb(0) || !(by_area_.total() > 0)) {
+    if (radiance_ == Rgb(0) || !(by_power_.total() > 0)) {
       arrival.unreached = Unreached::no_power;
       return arrival;
     }
-    const Choice choice = by_area_.choose(u.x);
+    const Choice choice = by_power_.choose(u.x);
     const Shape triangle(*mesh_, choice.index);
     const double height = glm::dot(receiver.origin - triangle.corners[0], triangle.normal);
     if (!(height > 0) && !(double_sided_ && height < 0)) {
@@ -62,7 +65,7 @@ class MeshLight final : public Light {
     return arrival;
   }
 
-  double power() const override { return luminance(radiance_) * kPi * by_area_.total() * (double_sided_ ? 2 : 1); }
+  double power() const override { return luminance(radiance_) * kPi * by_power_.total() * (double_sided_ ? 2 : 1); }
 
  private:
   /// A triangle in world space.
@@ -106,6 +109,15 @@ class MeshLight final : public Light {
     return b;
   }
 
+  /// About how bright a triangle is on the whole, as a share of the factor. Never 0: what no corner shows may shine.
+  double brightness(std::size_t triangle) const {
+    constexpr double kLeast = 0.1, kThird = 1.0 / 3;
+    constexpr SamplePoint kPoints[] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}, {kThird, kThird}};
+    double sum = 0;
+    for (const SamplePoint& b : kPoints) sum += luminance(radiance_at(triangle, b));
+    return kLeast + (1 - kLeast) * sum / (std::size(kPoints) * luminance(radiance_));
+  }
+
   Rgb radiance_at(std::size_t triangle, const SamplePoint& b) const {
     if (!textured_) return radiance_;
     return emission_at({file_, *mesh_->mesh, static_cast<std::uint32_t>(triangle), {1 - b.x - b.y, b.x, b.y}});
@@ -116,7 +128,7 @@ class MeshLight final : public Light {
   bool textured_ = false;
   const WorldMesh* mesh_ = nullptr;
   bool double_sided_ = false;
-  DiscreteDistribution by_area_;
+  DiscreteDistribution by_power_;
 };
 
 }  // namespace
