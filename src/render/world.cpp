@@ -49,7 +49,7 @@ void note_alpha(const io::SceneFile& file, std::vector<std::string>& notes) {
   });
   if (blended == 0) return;
   notes.push_back(
-      fmt::format("{} blended materials stop rays by chance, as their alpha says: more samples, less noise", blended));
+      fmt::format("blended materials ({}) stop rays by chance, as their alpha says: more samples, less noise", blended));
 }
 
 Status named(const io::SceneFile& file, const Status& status) {
