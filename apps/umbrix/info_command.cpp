@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -78,6 +80,40 @@ Json cameras(const io::SceneFile& scene) {
   return list;
 }
 
+/// What materials take from an image.
+Json uses_of(const io::SceneFile& scene, std::int32_t image) {
+  constexpr const char* kNames[] = {"base color", "metallic-roughness", "normal",
+                                    "emission",   "specular",           "specular color"};
+  static_assert(std::size(kNames) == std::size(io::kMaterialTextures));
+  Json uses = Json::array();
+  for (std::size_t kind = 0; kind < std::size(kNames); ++kind) {
+    const bool used = std::any_of(scene.materials.begin(), scene.materials.end(), [&](const io::Material& material) {
+      const std::int32_t texture = (material.*io::kMaterialTextures[kind]).texture;
+      return texture >= 0 && scene.textures[static_cast<std::size_t>(texture)].image == image;
+    });
+    if (used) uses.push_back(kNames[kind]);
+  }
+  return uses;
+}
+
+/// Pictures as their headers have them, by what they are used for; nothing is decoded.
+Json images(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const io::TextureImage& image = scene.images[i];
+    Json entry = {{"name", image.file.empty() ? image.name : std::filesystem::path(image.file).filename().string()}};
+    io::ImageInfo header;
+    if (const Status status = io::describe_image(scene, image, header); !status) {
+      entry["fault"] = status.message();
+    } else {
+      entry.update({{"format", header.format}, {"size", {header.width, header.height}}, {"channels", header.channels}});
+    }
+    entry["used_for"] = uses_of(scene, static_cast<std::int32_t>(i));
+    list.push_back(entry);
+  }
+  return list;
+}
+
 /// All that is told, in the order in which it is told.
 Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& meshes,
               const std::vector<std::string>& notes) {
@@ -92,7 +128,8 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"triangles", scene.instanced_triangles()},
           {"stored_triangles", stored},
           {"materials", scene.materials.size()},
-          {"textures", scene.textures},
+          {"textures", scene.textures.size()},
+          {"images", images(scene)},
           {"animations", scene.animations},
           {"moves_seconds", scene.motion ? Json(io::motion_span(scene)) : Json(nullptr)},
           {"bounds", bounds(meshes)},

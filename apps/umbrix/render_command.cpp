@@ -58,6 +58,7 @@ Status describe_plan(const RenderJob& job) {
 io::LoadLimits load_limits(const RenderArguments& a) {
   io::LoadLimits limits;
   if (a.memory_limit > 0) limits.file_bytes = std::min(limits.file_bytes, a.memory_limit);
+  limits.image_bytes = a.memory_limit;
   return limits;
 }
 
@@ -88,6 +89,15 @@ Status load(RenderJob& job) {
   return {};
 }
 
+/// What textures decode to is known only now.
+Status read_textures(RenderJob& job) {
+  const Stopwatch watch;
+  set_phase("reading textures");
+  if (Status status = io::read_textures(job.scene, load_limits(job.arguments)); !status) return status;
+  job.seconds.load += watch.seconds();
+  return check_memory(job);
+}
+
 Status write_report(const RenderJob& job) {
   const RenderArguments& a = job.arguments;
   if (!a.quiet) {
@@ -108,7 +118,8 @@ Status run(const RenderArguments& a) {
   job.threads = a.threads > 0 ? a.threads : allowed_threads();
   Status status;
   const auto work = [&] {
-    status = build_world(job);
+    status = read_textures(job);
+    if (status.ok()) status = build_world(job);
     if (!status) return;
     warn(job);
     status = render_frames(job);

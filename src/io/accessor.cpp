@@ -130,7 +130,10 @@ bool allowed(AccessorUse use, int type, bool normalized, bool quantized) {
       return is_float || ((is_signed || is_unsigned) && normalized);
     case AccessorUse::turn:
       return is_float || (is_signed && normalized);
+    case AccessorUse::color:
+      return is_float || (is_unsigned && normalized);
     case AccessorUse::normal:
+    case AccessorUse::tangent:
       return is_float || (quantized && is_signed && normalized);
     case AccessorUse::texcoord:
       return is_float || (is_unsigned && normalized) || (quantized && (is_signed || is_unsigned));
@@ -162,6 +165,22 @@ constexpr ElementType element_type() {
   }
 }
 
+// Where a view's bytes begin; all of them lie within its buffer.
+const unsigned char* view_data(const tinygltf::Model& model, int view_number, const std::string& label) {
+  if (view_number < 0 || static_cast<std::size_t>(view_number) >= model.bufferViews.size()) {
+    bad_input("{}: bufferView {} does not exist", label, view_number);
+  }
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_number)];
+  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
+    bad_input("{}: the buffer of bufferView {} does not exist", label, view_number);
+  }
+  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
+    bad_input("{}: bufferView {} lies beyond its buffer of {} bytes", label, view_number, data.size());
+  }
+  return data.data() + view.byteOffset;
+}
+
 }  // namespace
 
 AccessorReader::AccessorReader(const tinygltf::Model& model, std::uint64_t byte_limit)
@@ -181,17 +200,8 @@ std::uint64_t AccessorReader::count(int accessor) const { return accessor_at(acc
 
 AccessorReader::Bytes AccessorReader::locate(int view_number, std::uint64_t offset, std::uint64_t count,
                                              const Encoding& encoding, const std::string& label) const {
-  if (view_number < 0 || static_cast<std::size_t>(view_number) >= model_.bufferViews.size()) {
-    bad_input("{}: bufferView {} does not exist", label, view_number);
-  }
+  const unsigned char* const data = view_data(model_, view_number, label);
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_number)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size()) {
-    bad_input("{}: the buffer of bufferView {} does not exist", label, view_number);
-  }
-  const std::vector<unsigned char>& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    bad_input("{}: bufferView {} lies beyond its buffer of {} bytes", label, view_number, data.size());
-  }
   const std::uint64_t stride = view.byteStride != 0 ? view.byteStride : encoding.bytes();
   if (stride < encoding.bytes() || stride % encoding.component_bytes != 0) {
     bad_input("{}: a stride of {} bytes does not fit elements of {}", label, stride, encoding.bytes());
@@ -206,7 +216,7 @@ AccessorReader::Bytes AccessorReader::locate(int view_number, std::uint64_t offs
     bad_input("{}: {} elements of {} bytes at offset {} lie beyond bufferView {} of {} bytes", label, count,
               encoding.bytes(), offset, view_number, view.byteLength);
   }
-  return {data.data() + view.byteOffset + (count > 0 ? offset : 0), static_cast<std::size_t>(stride)};
+  return {data + (count > 0 ? offset : 0), static_cast<std::size_t>(stride)};
 }
 
 void AccessorReader::spend(std::uint64_t elements, std::size_t bytes_each, bool backed, const std::string& label) {
@@ -290,6 +300,13 @@ template std::vector<std::array<float, 3>> AccessorReader::values<3>(int, Access
 template std::vector<std::array<float, 4>> AccessorReader::values<4>(int, AccessorUse);
 template std::vector<std::array<float, 16>> AccessorReader::values<16>(int, AccessorUse);
 
+std::vector<std::array<float, 4>> AccessorReader::colors(int accessor) {
+  if (accessor_at(accessor).type != TINYGLTF_TYPE_VEC3) return values<4>(accessor, AccessorUse::color);
+  std::vector<std::array<float, 4>> out;
+  for (const std::array<float, 3>& c : values<3>(accessor, AccessorUse::color)) out.push_back({c[0], c[1], c[2], 1});
+  return out;
+}
+
 std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t vertex_count) {
   const tinygltf::Accessor& accessor = accessor_at(number);
   const std::string label = fmt::format("accessors[{}]", number);
@@ -308,6 +325,11 @@ std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t ver
     }
   }
   return out;
+}
+
+std::vector<unsigned char> view_bytes(const tinygltf::Model& model, int view, const std::string& label) {
+  const unsigned char* const data = view_data(model, view, label);
+  return {data, data + model.bufferViews[static_cast<std::size_t>(view)].byteLength};
 }
 
 }  // namespace umbrix::io::detail

@@ -16,7 +16,9 @@ namespace umbrix::io::detail {
 enum class AccessorUse {
   position,
   normal,
+  tangent,
   texcoord,
+  color,
   joint,
   weight,
   inverse_bind,
@@ -44,6 +46,9 @@ class AccessorReader {
 
   std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use) { return values<3>(accessor, use); }
   std::vector<std::array<float, 2>> texcoords(int accessor) { return values<2>(accessor, AccessorUse::texcoord); }
+  std::vector<std::array<float, 4>> tangents(int accessor) { return values<4>(accessor, AccessorUse::tangent); }
+  /// Of three or four components; the fourth is 1 where there is none.
+  std::vector<std::array<float, 4>> colors(int accessor);
 
   /// Vertex indices, each below `vertex_count`.
   std::vector<std::uint32_t> indices(int accessor, std::uint64_t vertex_count);
@@ -65,5 +70,8 @@ class AccessorReader {
   std::uint64_t zeros_left_;
   bool quantized_;
 };
+
+/// The bytes of a buffer view, such as an image's. Throws LoadError.
+std::vector<unsigned char> view_bytes(const tinygltf::Model& model, int view, const std::string& label);
 
 }  // namespace umbrix::io::detail

@@ -47,11 +47,17 @@ struct Conversion {
 /// "meshes[3] 'Wall'", fit for a message.
 std::string label_of(const char* array, std::size_t index, const std::string& name);
 
+void convert_textures(Conversion& conversion);
+void convert_images(Conversion& conversion);
 void convert_materials(Conversion& conversion);
 void convert_meshes(Conversion& conversion);
 
 /// Walks the scene's nodes and places meshes, cameras and lights, at rest. `animation`: as for load_scene.
 void convert_nodes(Conversion& conversion, const std::string& animation);
+
+/// A material's use of texture number `texture`, or of none for -1 and for what cannot be used, which is then noted.
+TextureUse convert_texture_use(Conversion& conversion, int texture, int texcoord,
+                               const tinygltf::ExtensionMap& extensions, const std::string& label);
 
 /// A camera or light without its place. The caller sets to_world, position and direction.
 Camera convert_camera(const tinygltf::Camera& camera, const std::string& label);

@@ -27,6 +27,14 @@ struct Rule {
   bool required = false;
 };
 
+#define UMBRIX_TEXTURE_INFO(path)                                                                           \
+  {path, Kind::object}, {path ".index", Kind::index, "textures", 0, true}, {path ".texCoord", Kind::index}, \
+      {path ".extensions.KHR_texture_transform.offset", Kind::numbers, nullptr, 2},                         \
+      {path ".extensions.KHR_texture_transform.scale", Kind::numbers, nullptr, 2},                          \
+      {path ".extensions.KHR_texture_transform.rotation", Kind::number}, {                                  \
+    path ".extensions.KHR_texture_transform.texCoord", Kind::index                                          \
+  }
+
 constexpr const char* kLights = "extensions.KHR_lights_punctual.lights";
 
 // Checked first: another version, or a file that needs more than we have, makes the rest meaningless.
@@ -81,17 +89,33 @@ constexpr Rule kBodyRules[] = {
 
     {"materials[].pbrMetallicRoughness", Kind::object},
     {"materials[].pbrMetallicRoughness.baseColorFactor", Kind::numbers, nullptr, 4},
-    {"materials[].pbrMetallicRoughness.baseColorTexture.index", Kind::index, "textures", 0, true},
+    UMBRIX_TEXTURE_INFO("materials[].pbrMetallicRoughness.baseColorTexture"),
+    UMBRIX_TEXTURE_INFO("materials[].pbrMetallicRoughness.metallicRoughnessTexture"),
+    UMBRIX_TEXTURE_INFO("materials[].normalTexture"),
+    {"materials[].normalTexture.scale", Kind::number},
+    UMBRIX_TEXTURE_INFO("materials[].occlusionTexture"),
     {"materials[].pbrMetallicRoughness.metallicFactor", Kind::number},
     {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
     {"materials[].emissiveFactor", Kind::numbers, nullptr, 3},
-    {"materials[].emissiveTexture.index", Kind::index, "textures", 0, true},
+    UMBRIX_TEXTURE_INFO("materials[].emissiveTexture"),
     {"materials[].alphaMode", Kind::string},
     {"materials[].alphaCutoff", Kind::number},
     {"materials[].doubleSided", Kind::boolean},
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number},
+    {"materials[].extensions.KHR_materials_ior.ior", Kind::number},
+    {"materials[].extensions.KHR_materials_specular.specularFactor", Kind::number},
+    {"materials[].extensions.KHR_materials_specular.specularColorFactor", Kind::numbers, nullptr, 3},
+    UMBRIX_TEXTURE_INFO("materials[].extensions.KHR_materials_specular.specularTexture"),
+    UMBRIX_TEXTURE_INFO("materials[].extensions.KHR_materials_specular.specularColorTexture"),
+    {"materials[].extensions.KHR_materials_unlit", Kind::object},
+    {"images[].uri", Kind::string},
     {"images[].bufferView", Kind::index, "bufferViews"},
     {"textures[].source", Kind::index, "images"},
+    {"textures[].sampler", Kind::index, "samplers"},
+    {"samplers[].magFilter", Kind::index},
+    {"samplers[].minFilter", Kind::index},
+    {"samplers[].wrapS", Kind::index},
+    {"samplers[].wrapT", Kind::index},
 
     {"cameras[].type", Kind::string, nullptr, 0, true},
     {"cameras[].perspective.yfov", Kind::number, nullptr, 0, true},
@@ -132,8 +156,12 @@ constexpr Rule kBodyRules[] = {
     {"scene", Kind::index, "scenes"},
 };
 
-constexpr const char* kSupported[] = {"KHR_lights_punctual", "KHR_mesh_quantization", "KHR_materials_emissive_strength",
-                                      "EXT_mesh_gpu_instancing"};
+#undef UMBRIX_TEXTURE_INFO
+
+constexpr const char* kSupported[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
+                                      "KHR_materials_emissive_strength", "KHR_materials_ior",
+                                      "KHR_materials_specular", "KHR_materials_unlit",
+                                      "KHR_mesh_quantization", "KHR_texture_transform"};
 
 // The number of elements of the array at a dotted path; 0 if there is none.
 std::uint64_t array_size(const json& root, std::string_view path) {
@@ -270,6 +298,8 @@ void check_required_extensions(const json& root) {
     const char* advice = "";
     if (name == kDraco) advice = " by this build; gltf-transform can decompress the file";
     if (name == kMeshopt) advice = " by this build; gltfpack or gltf-transform can decompress the file";
+    if (name == "KHR_texture_basisu") advice = "; gltf-transform can turn its KTX2 images into PNG";
+    if (name == "EXT_texture_webp") advice = "; gltf-transform can turn its WebP images into PNG";
     bad_input("requires the extension {}, which is not supported{}", printable(name, 64), advice);
   }
 }

@@ -66,7 +66,9 @@ void drop_unused_vertices(Mesh& mesh, Shape* shape) {
   }
   keep_used(mesh.positions, place, kept);
   keep_used(mesh.normals, place, kept);
-  keep_used(mesh.texcoords, place, kept);
+  for (auto& texcoords : mesh.texcoord_sets) keep_used(texcoords, place, kept);
+  keep_used(mesh.colors, place, kept);
+  keep_used(mesh.tangents, place, kept);
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) v = place[v];
   }
@@ -99,7 +101,9 @@ void note_ignored(const tinygltf::Primitive& primitive, const std::string& label
     });
     if (more) ignored.add("morph targets of other things than positions and normals", label);
   }
-  if (primitive.attributes.count("COLOR_0") > 0) ignored.add("vertex colours", label);
+  for (const char* more : {"COLOR_1", "TEXCOORD_2"}) {
+    if (primitive.attributes.count(more) > 0) ignored.add(fmt::format("vertex attribute {}", more), label);
+  }
 }
 
 class MeshConverter {
@@ -141,15 +145,12 @@ class MeshConverter {
     Mesh mesh;
     mesh.name = name;
     mesh.positions = reader_.vectors(position->second, AccessorUse::position);
-    const int normals = attribute(primitive, "NORMAL", reader_, vertex_count, label);
-    if (normals >= 0) mesh.normals = reader_.vectors(normals, AccessorUse::normal);
-    const int texcoords = attribute(primitive, "TEXCOORD_0", reader_, vertex_count, label);
-    if (texcoords >= 0) mesh.texcoords = reader_.texcoords(texcoords);
+    mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material();
+    read_attributes(primitive, vertex_count, label, mesh);
     mesh.triangles.resize(count);
     for (std::uint64_t i = 0; i < count; ++i) mesh.triangles[i] = triangle(mode, corners, i);
     const std::shared_ptr<Shape> shape = read_shape(primitive, mesh, reader_, label);
     if (vertex_count > corners.count) drop_unused_vertices(mesh, shape.get());
-    mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material();
     note_ignored(primitive, label, conversion_.ignored);
     conversion_.scene.meshes.push_back(std::move(mesh));
     conversion_.shapes.push_back(shape);
@@ -166,6 +167,29 @@ class MeshConverter {
   }
 
  private:
+  // What shading wants at the corners; of what only textures want, what the material's textures do.
+  void read_attributes(const tinygltf::Primitive& primitive, std::uint64_t vertex_count, const std::string& label,
+                       Mesh& mesh) {
+    const Material& material = conversion_.scene.materials[mesh.material];
+    const auto find = [&](const char* name) { return attribute(primitive, name, reader_, vertex_count, label); };
+    if (const int normals = find("NORMAL"); normals >= 0) mesh.normals = reader_.vectors(normals, AccessorUse::normal);
+    if (const int colors = find("COLOR_0"); colors >= 0) mesh.colors = reader_.colors(colors);
+    const int tangents = find("TANGENT");
+    if (tangents >= 0 && material.normal_texture.texture >= 0) mesh.tangents = reader_.tangents(tangents);
+    const char* const names[] = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (std::uint32_t set = 0; set < 2; ++set) {
+      const bool wanted = std::any_of(std::begin(kMaterialTextures), std::end(kMaterialTextures), [&](const auto use) {
+        return (material.*use).texture >= 0 && (material.*use).texcoord == set;
+      });
+      const int texcoords = find(names[set]);
+      if (texcoords >= 0 && (wanted || set == 0)) mesh.texcoord_sets[set] = reader_.texcoords(texcoords);
+      if (texcoords < 0 && wanted) {
+        conversion_.warnings.add(fmt::format("textures without {}, which they need; factors only are used", names[set]),
+                                 label);
+      }
+    }
+  }
+
   Conversion& conversion_;
   AccessorReader reader_;
   std::uint64_t triangles_left_;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "umbrix/io/scene_file.h"
 
-#include <unistd.h>
-
 #include <exception>
-#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -13,6 +10,7 @@
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
 #include "io/load_error.h"
+#include "io/memory_share.h"
 
 namespace umbrix::io {
 namespace detail {
@@ -45,7 +43,6 @@ void note_unread(Conversion& c) {
   const auto note = [&](const char* kind, std::size_t count) {
     if (count > 0) c.ignored.add(kind, "", count);
   };
-  note("textures (factors only are used)", c.model.textures.size());
   note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);
   for (const std::string& name : c.model.extensionsUsed) {
     if (!is_supported_extension(name)) c.ignored.add("extension " + printable(name, 64), "");
@@ -55,9 +52,7 @@ void note_unread(Conversion& c) {
 // What a small file can ask for by naming one accessor in many primitives has to end before the machine's memory does.
 std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
   if (limits.decoded_bytes > 0) return limits.decoded_bytes;
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page_bytes);
+  return memory_share(3, 4);
 }
 
 void load(const std::string& path, SceneFile& scene, LoadLimits limits, const std::string& animation) {
@@ -74,10 +69,11 @@ void load(const std::string& path, SceneFile& scene, LoadLimits limits, const st
   scene.path = path;
   scene.generator = model.asset.generator;
   scene.extensions_used = model.extensionsUsed;
-  scene.textures = model.textures.size();
   for (const tinygltf::Animation& animation_in : model.animations) scene.animations.push_back(animation_in.name);
 
   Conversion conversion{model, limits, scene, {}, {}, {}, {}};
+  convert_textures(conversion);
+  convert_images(conversion);
   convert_materials(conversion);
   convert_meshes(conversion);
   convert_nodes(conversion, animation);

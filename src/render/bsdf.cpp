@@ -31,11 +31,12 @@ double power5(double x) { return x * x * x * x * x; }
 struct Lobes {
   explicit Lobes(const BsdfParameters& material)
       : diffuse(material.base_color * (1 - material.metallic)),
-        f0(glm::mix(Rgb(0.04), material.base_color, material.metallic)),
+        f0(glm::mix(material.dielectric_f0, material.base_color, material.metallic)),
+        f90(glm::mix(material.dielectric_f90, 1.0, material.metallic)),
         metallic(material.metallic),
         alpha(std::max(material.roughness * material.roughness, kSmallestAlpha)) {}
 
-  Rgb fresnel(double view_half) const { return f0 + (1.0 - f0) * power5(1 - view_half); }
+  Rgb fresnel(double view_half) const { return f0 + (f90 - f0) * power5(1 - view_half); }
 
   /// Of light that was reflected more than once: 1 for a white metal.
   Rgb repeated_fresnel(double mean_albedo) const {
@@ -55,7 +56,7 @@ struct Lobes {
   }
 
   Rgb diffuse, f0;
-  double metallic, alpha;
+  double f90, metallic, alpha;
 };
 
 /// What is reflected more than once, about evenly.

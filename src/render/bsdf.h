@@ -11,7 +11,13 @@ struct BsdfParameters {
   Rgb base_color{1};  ///< linear
   double metallic = 1;
   double roughness = 1;  ///< perceptual: its square is the GGX distribution's alpha
+  /// What is not metal reflects at normal incidence, and at grazing angles.
+  Rgb dielectric_f0{0.04};
+  double dielectric_f90 = 1;
 };
+
+/// Reflects nothing.
+inline const BsdfParameters kBlack{Rgb(0), 0, 1, Rgb(0), 0};
 
 /// The share of light from `wi` that leaves towards `wo`, per steradian, without the cosine. All unit vectors, pointing
 /// away from the surface, the directions on the normal's side.

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <new>
 #include <utility>
 
+#include "render/materials/alpha.h"
 #include "render/vec.h"
 
 namespace umbrix::render {
@@ -21,8 +23,10 @@ bool mirrors(const io::Transform& m) {
          0;
 }
 
-bool invisible(const io::Material& material) {
-  return material.alpha_mode == io::AlphaMode::mask && material.alpha < material.alpha_cutoff;
+/// Whether alpha is known to let all rays through: textures have none above 1.
+bool invisible(const io::Material& material, const io::Mesh& mesh) {
+  if (material.alpha_mode == io::AlphaMode::blend) return material.alpha == 0;
+  return material.alpha_mode == io::AlphaMode::mask && material.alpha < material.alpha_cutoff && mesh.colors.empty();
 }
 
 WorldMesh place(const io::SceneFile& file, std::uint32_t instance, bool shares) {
@@ -41,16 +45,12 @@ WorldMesh place(const io::SceneFile& file, std::uint32_t instance, bool shares) 
 }
 
 void note_alpha(const io::SceneFile& file, std::vector<std::string>& notes) {
-  std::size_t blended = 0, masked_by_texture = 0;
-  for (const io::Material& material : file.materials) {
-    blended += material.alpha_mode == io::AlphaMode::blend;
-    masked_by_texture += material.alpha_mode == io::AlphaMode::mask && material.base_color_texture >= 0;
-  }
-  if (blended > 0) notes.push_back(fmt::format("{} blended materials are rendered opaque", blended));
-  if (masked_by_texture > 0) {
-    notes.push_back(fmt::format("{} alpha masks are taken from the material's constant alpha: textures are not read",
-                                masked_by_texture));
-  }
+  const auto blended = std::count_if(file.materials.begin(), file.materials.end(), [](const io::Material& material) {
+    return material.alpha_mode == io::AlphaMode::blend && material.alpha > 0;
+  });
+  if (blended == 0) return;
+  notes.push_back(
+      fmt::format("blended materials ({}) stop rays by chance, as their alpha says: more samples, less noise", blended));
 }
 
 MeshView triangles_of(const io::Mesh& mesh, const std::vector<io::Float3>& positions) {
@@ -68,8 +68,12 @@ class SceneFiller {
   SceneFiller(const io::SceneFile& file, Scene& scene)
       : file_(file), scene_(scene), prototypes_(file.meshes.size(), Primitive::kNone) {}
 
-  Status add(const WorldMesh& mesh) {
-    if (!mesh.positions.empty()) return scene_.add(mesh.view());
+  Status add(const WorldMesh& mesh, const OpacityTest& opacity) {
+    if (!mesh.positions.empty()) {
+      MeshView view = mesh.view();
+      view.opacity = opacity;
+      return scene_.add(view);
+    }
     std::uint32_t& prototype = prototypes_[file_.instances[mesh.instance].mesh];
     if (prototype == Primitive::kNone) {
       MeshView view = triangles_of(*mesh.mesh, mesh.mesh->positions);
@@ -78,6 +82,7 @@ class SceneFiller {
     Instance instance;
     instance.prototype = prototype;
     copy(*mesh.to_world, instance.to_world);
+    instance.opacity = opacity;
     return scene_.add_instance(instance);
   }
 
@@ -90,14 +95,32 @@ class SceneFiller {
 Status build_scene(const BuildOptions& options, World& world) {
   world.scene = Scene();  // the old tree goes before the new one comes
   SceneFiller filler(*world.file, world.scene);
-  for (const WorldMesh& mesh : world.meshes) {
-    if (Status status = filler.add(mesh); !status) return status;
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    if (Status status = filler.add(world.meshes[i], world.opacity[i]); !status) return status;
   }
   return world.scene.commit(options);
 }
 
 Status named(const io::SceneFile& file, const Status& status) {
   return status.ok() ? status : Status(status.code(), fmt::format("{}: {}", file.path, status.message()));
+}
+
+/// Opacity tests of the placed meshes. Instances share those of their mesh.
+Status make_opacity(const io::SceneFile& file, const std::vector<WorldMesh>& meshes, std::vector<AlphaTest>& tests,
+                    std::vector<OpacityTest>& out) try {
+  std::map<const io::Mesh*, OpacityTest> known;
+  for (const WorldMesh& mesh : meshes) {
+    const auto [entry, is_new] = known.try_emplace(mesh.mesh);
+    if (is_new && !is_solid(file, *mesh.mesh)) {
+      const auto number = static_cast<std::uint64_t>(mesh.mesh - file.meshes.data());
+      if (Status status = make_alpha_test(file, *mesh.mesh, number, tests.emplace_back()); !status) return status;
+      entry->second = tests.back().test();
+    }
+    out.push_back(entry->second);
+  }
+  return {};
+} catch (const std::bad_alloc&) {
+  return Status::out_of_memory("no memory for alpha");
 }
 
 }  // namespace
@@ -121,7 +144,7 @@ Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vect
   const std::vector<bool> shared = shared_meshes(file, instancing);
   for (std::uint32_t i = 0; i < file.instances.size(); ++i) {
     const io::Mesh& mesh = file.meshes[file.instances[i].mesh];
-    if (mesh.triangles.empty() || invisible(file.materials[mesh.material])) continue;
+    if (mesh.triangles.empty() || invisible(file.materials[mesh.material], mesh)) continue;
     out.push_back(place(file, i, shared[file.instances[i].mesh]));
   }
   return {};
@@ -133,6 +156,7 @@ Status build_world(const io::SceneFile& file, const BuildOptions& options, World
   out = World();
   out.file = &file;
   if (Status status = flatten(file, out.meshes, out.notes, instancing); !status) return status;
+  if (Status status = make_opacity(file, out.meshes, out.alpha, out.opacity); !status) return named(file, status);
   return named(file, build_scene(options, out));
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/shared_meshes.h"
 #include "umbrix/io/scene_file.h"
+#include "umbrix/opacity.h"
 #include "umbrix/scene.h"
 
 namespace umbrix::render {
@@ -28,22 +29,24 @@ struct WorldMesh {
   MeshView view() const noexcept;
 };
 
-/// The instances that are there, in file order. An alpha-masked mesh whose constant alpha is below the cut-off is
-/// not there, for any ray; a blended one is opaque (`notes` says so, one line for each kind of simplification).
-/// Those that share their mesh get no positions. `file` must outlive the result. resource_limit if memory runs out.
+/// The instances that are there, in file order. One that alpha hides for any ray, by what is known without textures, is
+/// not (`notes` has one line for each kind of simplification). Those that share their mesh get no positions. `file` must
+/// outlive the result. resource_limit if memory runs out.
 Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes,
                Instancing instancing = Instancing::flatten);
 
-/// What rays meet and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
+/// What rays meet (alpha included) and what shading needs to know about it. `scene` mesh i is `meshes[i]`.
 struct World {
   const io::SceneFile* file = nullptr;
   std::vector<WorldMesh> meshes;
   std::vector<std::string> notes;
+  std::vector<AlphaTest> alpha;      ///< of the file's meshes that are not solid
+  std::vector<OpacityTest> opacity;  ///< of `meshes`: none, or that of one in `alpha`
   Scene scene;
 };
 
-/// Flattens and builds; `file` must outlive the world. Fails as flatten, Scene::add and Scene::commit do, naming
-/// the file.
+/// Flattens and builds; `file` must outlive the world, and its textures are used as far as they are read by then. Fails
+/// as flatten, Scene::add and Scene::commit do, naming the file.
 Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out,
                    Instancing instancing = Instancing::automatic);
 

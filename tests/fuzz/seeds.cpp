@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/gltf_text.h"
+#include "io/picture_bytes.h"
 #include "umbrix/io/image_file.h"
 
 namespace {
@@ -142,10 +143,40 @@ Gltf with_everything() {
   return g;
 }
 
+// Pictures of both formats, for a mask, a normal and an emission.
+Gltf with_textures() {
+  Gltf g = one_triangle();
+  auto& primitive = g.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] = g.accessor(bytes_of(std::vector<float>{0, 0, 1, 0, 0, 1}), 5126, 3, "VEC2");
+  primitive["attributes"]["COLOR_0"] = g.accessor(bytes_of(std::vector<float>(12, 1)), 5126, 3, "VEC4");
+  primitive["attributes"]["TANGENT"] = g.accessor(bytes_of(std::vector<float>(12, 1)), 5126, 3, "VEC4");
+  const int png = g.view(umbrix::io::testing::png_bytes(1, 2, 4, {1, 2, 3, 4, 5, 6, 7, 8}));
+  g.json["images"] = {{{"bufferView", png}, {"mimeType", "image/png"}},
+                      {{"uri", std::string("data:image/jpeg;base64,") + umbrix::io::testing::kGreyJpeg}}};
+  g.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+  g.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+  g.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_specular", "KHR_materials_ior"};
+  g.json["materials"] = {
+      {{"alphaMode", "MASK"},
+       {"pbrMetallicRoughness",
+        {{"baseColorTexture",
+          {{"index", 0},
+           {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {2, 3}}}}}}}},
+         {"metallicRoughnessTexture", {{"index", 1}}}}},
+       {"normalTexture", {{"index", 1}, {"scale", 0.5}}},
+       {"emissiveFactor", {1, 1, 1}},
+       {"emissiveTexture", {{"index", 1}, {"texCoord", 0}}},
+       {"extensions",
+        {{"KHR_materials_ior", {{"ior", 1.4}}},
+         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularTexture", {{"index", 0}}}}}}}}};
+  return g;
+}
+
 void write_scenes(const fs::path& out, const std::vector<std::string>& scene_paths) {
   Folder text(out / "gltf_text"), binary(out / "gltf_binary");
   for (const Gltf& g : {one_triangle(), with_mode(5), with_mode(6), with_mode(1), with_sparse(), with_quantized(),
-                        with_everything(), with_motion()}) {
+                        with_everything(), with_motion(), with_textures()}) {
     text.add(g.text());
     binary.add(g.glb());
   }

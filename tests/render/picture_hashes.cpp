@@ -39,6 +39,7 @@ void add_lamps(View& view) {
 
 Status load(const char* path, const char* setup_path, io::SceneFile& scene, View& view) {
   if (Status status = io::load_scene(path, scene); !status) return status;
+  if (Status status = io::read_textures(scene); !status) return status;
   io::Setup setup;
   if (setup_path) {
     if (Status status = io::load_setup(setup_path, scene, setup); !status) return status;

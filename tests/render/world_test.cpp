@@ -85,17 +85,20 @@ TEST(World, MaskedMeshBelowTheCutOffIsNotThere) {
   EXPECT_EQ(flattened(scene).size(), 1u);
 }
 
-TEST(World, BlendedMeshIsOpaqueAndSaysSo) {
+TEST(World, BlendedMeshSaysSoUnlessItIsNotThere) {
   io::SceneFile scene = scene_of(kUnitQuad);
   place(scene, 0);
   std::vector<std::string> notes;
   EXPECT_EQ(flattened(scene, &notes).size(), 1u);
   EXPECT_TRUE(notes.empty());
   scene.materials[0].alpha_mode = io::AlphaMode::blend;
-  scene.materials[0].alpha = 0;
+  scene.materials[0].alpha = 0.5f;
   EXPECT_EQ(flattened(scene, &notes).size(), 1u);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("blended"), std::string::npos);
+  scene.materials[0].alpha = 0;
+  EXPECT_TRUE(flattened(scene, &notes).empty());
+  EXPECT_TRUE(notes.empty());
 }
 
 TEST(World, RaysMeetThePlacedTriangles) {

@@ -11,12 +11,14 @@
 
 #include "umbrix/export.h"
 #include "umbrix/io/light_types.h"
+#include "umbrix/io/texture.h"
 #include "umbrix/status.h"
 
 /// glTF 2.0 in: plain data, checked and in one form, whatever the file's encoding.
 namespace umbrix::io {
 
 using Float3 = std::array<float, 3>;
+using Float4 = std::array<float, 4>;
 using Double3 = std::array<double, 3>;
 
 /// An affine transform, row-major 3x4: point' = m[row][0..2] . point + m[row][3].
@@ -25,7 +27,7 @@ inline constexpr Transform kIdentity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// glTF's metallic-roughness material; colours are linear Rec.709.
+/// glTF's metallic-roughness material; colours are linear Rec.709. Textures multiply the factors beside them.
 struct Material {
   std::string name;
   Float3 base_color{1, 1, 1};
@@ -33,20 +35,38 @@ struct Material {
   float metallic = 1;
   float roughness = 1;
   Float3 emission{0, 0, 0};
+  float ior = 1.5f;                ///< KHR_materials_ior; 0: what is not metal reflects as if it were without bound
+  float specular = 1;              ///< KHR_materials_specular
+  Float3 specular_color{1, 1, 1};  ///< KHR_materials_specular; may be above 1
+  bool unlit = false;              ///< KHR_materials_unlit: looks like base_color in any light, and gives none
   bool double_sided = false;
   AlphaMode alpha_mode = AlphaMode::opaque;
-  float alpha_cutoff = 0.5f;             ///< for AlphaMode::mask
-  std::int32_t base_color_texture = -1;  ///< index of the file's texture, kept for when textures are read
+  float alpha_cutoff = 0.5f;  ///< for AlphaMode::mask
+  float normal_scale = 1;     ///< of the normal texture's x and y
+
+  TextureUse base_color_texture;          ///< sRGB, and alpha
+  TextureUse metallic_roughness_texture;  ///< roughness in green, metallic in blue
+  TextureUse normal_texture;
+  TextureUse emissive_texture;        ///< sRGB
+  TextureUse specular_texture;        ///< in alpha
+  TextureUse specular_color_texture;  ///< sRGB
 };
+
+/// The textures of a material, for what is the same for all.
+inline constexpr TextureUse Material::*kMaterialTextures[] = {
+    &Material::base_color_texture, &Material::metallic_roughness_texture, &Material::normal_texture,
+    &Material::emissive_texture,   &Material::specular_texture,           &Material::specular_color_texture};
 
 /// One glTF primitive as a triangle list. Strips and fans are expanded, accessors decoded.
 struct Mesh {
   std::string name;
   std::vector<Float3> positions;
-  std::vector<Float3> normals;                          ///< empty, or one a position
-  std::vector<std::array<float, 2>> texcoords;          ///< empty, or one a position
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices are in range
-  std::uint32_t material = 0;                           ///< always valid; a default material exists
+  std::vector<Float3> normals;                                     ///< empty, or one a position; so are the next three
+  std::array<std::vector<std::array<float, 2>>, 2> texcoord_sets;  ///< the second if the material asks for it
+  std::vector<Float4> colors;                                      ///< linear, with alpha
+  std::vector<Float4> tangents;                                    ///< x, y, z and the bitangent's sign
+  std::vector<std::array<std::uint32_t, 3>> triangles;             ///< indices are in range
+  std::uint32_t material = 0;                                      ///< always valid; a default material exists
 };
 
 /// A mesh placed in the world.
@@ -125,6 +145,8 @@ struct SceneFile {
   std::string path;
   std::string generator;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<TextureImage> images;
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<Light> lights;
@@ -132,7 +154,6 @@ struct SceneFile {
   std::vector<std::string> extensions_used;
   std::vector<std::string> ignored;  ///< one line for each kind of thing the file has and we do not use
   std::vector<std::string> warnings;
-  std::uint64_t textures = 0;
   std::vector<std::string> animations;  ///< their names
   /// What moves instances, lights and the shapes of meshes over the frames of a sequence (see pose_scene), shared by
   /// copies; null if nothing does.
@@ -153,6 +174,8 @@ struct LoadLimits {
   std::uint64_t triangles = 1ull << 29;  ///< over all instances
   std::uint64_t decoded_bytes = 0;       ///< of all accessors' values; 0: three quarters of the machine's memory
   std::uint64_t environment_pixels = 1ull << 27;  ///< 16384 x 8192
+  std::uint64_t image_pixels = 1ull << 28;        ///< of each texture's image: 16384 x 16384
+  std::uint64_t image_bytes = 0;                  ///< of all textures' images, decoded; 0: half of the machine's memory
   bool allow_paths_outside = false;               ///< files named by a file, outside its folder
 };
 
@@ -179,6 +202,23 @@ UMBRIX_API Status pose_scene(SceneFile& scene, const Moment& moment, SceneChange
 
 /// From the first to the last key of what moves the scene, in seconds; zeros if nothing does.
 UMBRIX_API std::array<double, 2> motion_span(const SceneFile& scene);
+
+/// Reads and decodes the images of textures that materials in use sample, and no others; in parallel, on oneTBB. An
+/// image that is missing or damaged is left out with a line in `warnings`: its texture then is as if it were not there.
+/// resource_limit for one beyond the limits. Not for one scene from two threads at once.
+UMBRIX_API Status read_textures(SceneFile& scene, const LoadLimits& limits = {});
+
+/// An image as its header describes it.
+struct ImageInfo {
+  std::string format;  ///< "png", "jpeg"
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  std::uint32_t channels = 0;
+};
+
+/// Looks at the header of an image that is still encoded. Fails as load_scene does. Thread-safe.
+UMBRIX_API Status describe_image(const SceneFile& scene, const TextureImage& image, ImageInfo& out,
+                                 const LoadLimits& limits = {});
 
 /// Camera and lights from outside the scene file.
 struct Setup {
