@@ -8,6 +8,7 @@
 #include <string>
 
 #include "message.h"
+#include "openjd_lines.h"
 
 namespace umbrix::app {
 namespace {
@@ -39,6 +40,7 @@ void Progress::update(std::size_t done, std::size_t total) {
     drawn_ = Clock::now();
     draw_bar(share);
   }
+  if (style_ == ProgressStyle::openjd) tell_openjd(share);
   // One line for each tenth, or for each frame: few enough for a log, often enough for a farm.
   const int tenths = static_cast<int>(share * 10);
   if (style_ == ProgressStyle::lines && frames_ == 1 && tenths > tenths_) {
@@ -47,8 +49,20 @@ void Progress::update(std::size_t done, std::size_t total) {
   }
 }
 
+void Progress::tell_openjd(double share) {
+  // A line for each hundredth: few enough for a log.
+  const int percent = static_cast<int>(share * 100);
+  if (percent <= percent_) return;
+  percent_ = percent;
+  say_openjd_progress(share * 100);
+}
+
 void Progress::frame_done(std::optional<int> number) {
   ++frames_done_;
+  if (style_ == ProgressStyle::openjd) {
+    say_openjd_status(fmt::format("{} of {} frames done", frames_done_, frames_));
+    tell_openjd(static_cast<double>(frames_done_) / static_cast<double>(frames_));
+  }
   if (style_ != ProgressStyle::lines || frames_ == 1 || !number) return;
   const double share = static_cast<double>(frames_done_) / static_cast<double>(frames_);
   say(fmt::format("umbrix: frame {} done, {} of {}, {} left", *number, frames_done_, frames_,

@@ -56,6 +56,9 @@ const char* fault_of(const Image& image) {
   if (image.pixels.size() % image.channels.size() != 0 || image.pixels.size() / image.channels.size() != count) {
     return "the image's pixels do not match its size";
   }
+  if (image.frame_width < 0 || image.frame_height < 0 || (image.frame_width > 0) != (image.frame_height > 0)) {
+    return "the image's frame is empty";
+  }
   for (const auto& matrix : image.matrices) {
     if (matrix.second.size() != 16) return "a matrix of the image has not 16 values";
   }
@@ -97,7 +100,15 @@ void read_checked(const std::string& path, Image& out) {
   Image image;
   image.width = spec.width;
   image.height = spec.height;
+  image.x = spec.x - spec.full_x;
+  image.y = spec.y - spec.full_y;
+  image.frame_width = spec.full_width;
+  image.frame_height = spec.full_height;
   image.channels = spec.channelnames;
+  const bool half = spec.format == OIIO::TypeDesc::HALF ||
+                    std::any_of(spec.channelformats.begin(), spec.channelformats.end(),
+                                [](const OIIO::TypeDesc& type) { return type == OIIO::TypeDesc::HALF; });
+  image.pixel_type = half ? PixelType::half : PixelType::single;
   image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                       static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {

@@ -61,7 +61,7 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
       {{"--simd", "MMX"}, "MMX"},
       {{"--camera", "nose"}, "'eye'"},
       {{"--frobnicate"}, "frobnicate"},
-      {{"-q", "-v"}, "verbose"},
+      {{"-q", "--verbose"}, "verbose"},
       {{"-o", "OUT_AGAIN"}, "twice"},
   };
   for (const Case& c : cases) {
