@@ -41,6 +41,8 @@ endif()
 # The package: a minor version may change the interface while the major one is 0.
 get_target_property(umbrix_type umbrix TYPE)
 string(COMPARE EQUAL ${umbrix_type} STATIC_LIBRARY umbrix_is_static)
+get_property(umbrix_readers GLOBAL PROPERTY UMBRIX_READERS)
+string(REPLACE ";" " " umbrix_readers "${umbrix_readers}")
 configure_package_config_file(cmake/umbrix-config.cmake.in ${generated_dir}/umbrix-config.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${generated_dir}/umbrix-config-version.cmake COMPATIBILITY SameMinorVersion)

@@ -6,7 +6,8 @@ cd "$(dirname "$0")/.."
 
 # openimageio-tools: OpenImageIO's CMake files insist on its programs.
 scripts/install_packages.sh g++ cmake ninja-build pkg-config libtbb-dev libhwy-dev libglm-dev libboost-dev \
-  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev libopenimageio-dev openimageio-tools
+  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev \
+  libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools
 
 launcher=$(command -v ccache || true)
 cmake --preset release -DUMBRIX_TESTS=OFF -DUMBRIX_BENCH=OFF -B build/demo -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher"

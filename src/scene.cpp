@@ -12,6 +12,9 @@
 #include "core/float_mode.h"
 #include "core/growing_array.h"
 #include "core/parallel_for.h"
+#include "core/transform.h"
+#include "index/instance_tree.h"
+#include "kernels/instanced.h"
 #include "kernels/kernel.h"
 #include "tree/lazy_tree.h"
 
@@ -30,11 +33,14 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
   detail::Box bounds;
   detail::TriangleBvh bvh;
   std::optional<detail::LazyTree> tree;  ///< from commit on
+  detail::InstanceTree instances;        ///< those that stay instances
   BuildStats stats;
   detail::SceneView view{};
   std::vector<std::shared_ptr<const detail::SideTable>> side_tables;  ///< by the kernel's place in the table
   bool committed = false;
 
+  template <class TriangleAt>
+  void append(std::size_t count, std::uint32_t mask, const OpacityTest& opacity, const TriangleAt& triangle_at);
   void keep_or_drop(const detail::Triangle& triangle, std::uint32_t id);
   void make_view();
 
@@ -59,23 +65,7 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
 namespace {
 
 constexpr std::uint64_t kMaxTriangles = 1ull << 29;
-
-Status check(const MeshView& mesh, std::uint64_t triangles_so_far) {
-  if (mesh.triangle_count == 0) return {};
-  if (!mesh.vertices || mesh.vertex_count == 0) return {StatusCode::invalid_argument, "mesh: no vertices"};
-  if (mesh.vertex_stride < 12 || mesh.vertex_stride % 4 != 0)
-    return {StatusCode::invalid_argument, "mesh: vertex_stride must be a multiple of 4 and at least 12"};
-  if (mesh.indices && (mesh.index_stride < 12 || mesh.index_stride % 4 != 0))
-    return {StatusCode::invalid_argument, "mesh: index_stride must be a multiple of 4 and at least 12"};
-  if (reinterpret_cast<std::uintptr_t>(mesh.vertices) % 4 != 0 ||
-      reinterpret_cast<std::uintptr_t>(mesh.indices) % 4 != 0)
-    return {StatusCode::invalid_argument, "mesh: vertices and indices must be aligned to 4 bytes"};
-  if (!mesh.indices && mesh.vertex_count / 3 < mesh.triangle_count)
-    return {StatusCode::invalid_argument, "mesh: fewer than three vertices a triangle"};
-  if (triangles_so_far + mesh.triangle_count > kMaxTriangles)
-    return {StatusCode::resource_limit, "scene: more than 2^29 triangles"};
-  return {};
-}
+constexpr std::uint64_t kMaxInstances = 1ull << 29;
 
 /// The vertex numbers of one triangle.
 struct Corners {
@@ -95,10 +85,34 @@ detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
   return {p[0], p[1], p[2]};
 }
 
-bool is_finite(const detail::Triangle& triangle) noexcept {
-  for (const detail::Vec3& v : triangle.v)
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
-  return true;
+detail::Triangle triangle_of(const MeshView& mesh, std::size_t i) noexcept {
+  const Corners corners(mesh, i);
+  return {{vertex(mesh, corners.index[0]), vertex(mesh, corners.index[1]), vertex(mesh, corners.index[2])}};
+}
+
+Status check(const MeshView& mesh) {
+  if (mesh.triangle_count == 0) return {};
+  if (!mesh.vertices || mesh.vertex_count == 0) return {StatusCode::invalid_argument, "mesh: no vertices"};
+  if (mesh.vertex_stride < 12 || mesh.vertex_stride % 4 != 0)
+    return {StatusCode::invalid_argument, "mesh: vertex_stride must be a multiple of 4 and at least 12"};
+  if (mesh.indices && (mesh.index_stride < 12 || mesh.index_stride % 4 != 0))
+    return {StatusCode::invalid_argument, "mesh: index_stride must be a multiple of 4 and at least 12"};
+  if (reinterpret_cast<std::uintptr_t>(mesh.vertices) % 4 != 0 ||
+      reinterpret_cast<std::uintptr_t>(mesh.indices) % 4 != 0)
+    return {StatusCode::invalid_argument, "mesh: vertices and indices must be aligned to 4 bytes"};
+  if (!mesh.indices && mesh.vertex_count / 3 < mesh.triangle_count)
+    return {StatusCode::invalid_argument, "mesh: fewer than three vertices a triangle"};
+  for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i)
+    for (const std::uint32_t index : Corners(mesh, i).index)
+      if (index >= mesh.vertex_count)
+        return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
+                                                  std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
+  return {};
+}
+
+Status check_count(std::uint64_t triangles_so_far, std::uint64_t more) {
+  if (triangles_so_far + more > kMaxTriangles) return {StatusCode::resource_limit, "scene: more than 2^29 triangles"};
+  return {};
 }
 
 }  // namespace
@@ -109,7 +123,7 @@ Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 
 void Scene::Impl::keep_or_drop(const detail::Triangle& triangle, std::uint32_t id) {
-  if (!is_finite(triangle)) {
+  if (!detail::is_finite(triangle)) {
     ++stats.dropped_nonfinite;
   } else if (detail::is_degenerate(triangle)) {
     ++stats.dropped_degenerate;
@@ -119,40 +133,85 @@ void Scene::Impl::keep_or_drop(const detail::Triangle& triangle, std::uint32_t i
   }
 }
 
+/// Adds a mesh's triangles to the list. Throws std::bad_alloc, and has then added nothing.
+template <class TriangleAt>
+void Scene::Impl::append(std::size_t count, std::uint32_t mask, const OpacityTest& opacity,
+                         const TriangleAt& triangle_at) {
+  // Ask for all memory first: nothing after it can fail half-way.
+  triangles.make_room(count);
+  kept.make_room(count);
+  mesh_of.make_room(count);
+  const auto first = static_cast<std::uint32_t>(triangles.size());
+  meshes.push_back({first, static_cast<std::uint32_t>(count), mask, opacity});
+
+  const detail::DefaultFloatMode mode;
+  mesh_of.append(count, static_cast<std::uint32_t>(meshes.size() - 1));
+  for (std::size_t i = 0; i < count; ++i) {
+    triangles.push_back(triangle_at(i));
+    keep_or_drop(triangles.back(), first + static_cast<std::uint32_t>(i));
+  }
+  stats.triangles += count;
+}
+
 Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
   try {
     if (!impl_) impl_ = std::make_unique<Impl>();
     Impl& s = *impl_;
     if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
-    if (Status status = check(mesh, s.triangles.size()); !status) return status;
-    for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i)
-      for (const std::uint32_t index : Corners(mesh, i).index)
-        if (index >= mesh.vertex_count)
-          return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
-                                                    std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
-
-    // Ask for all memory first: nothing after it can fail half-way.
-    s.triangles.make_room(mesh.triangle_count);
-    s.kept.make_room(mesh.triangle_count);
-    s.mesh_of.make_room(mesh.triangle_count);
-    s.meshes.push_back({static_cast<std::uint32_t>(s.triangles.size()), static_cast<std::uint32_t>(mesh.triangle_count),
-                        mesh.mask, mesh.opacity});
-
-    const detail::DefaultFloatMode mode;
-    const auto first = static_cast<std::uint32_t>(s.triangles.size());
-    const auto number = static_cast<std::uint32_t>(s.meshes.size() - 1);
-    s.mesh_of.append(mesh.triangle_count, number);
-    for (std::size_t i = 0; i < mesh.triangle_count; ++i) {
-      const Corners corners(mesh, i);
-      s.triangles.push_back(
-          {{vertex(mesh, corners.index[0]), vertex(mesh, corners.index[1]), vertex(mesh, corners.index[2])}});
-      s.keep_or_drop(s.triangles.back(), first + static_cast<std::uint32_t>(i));
-    }
-    s.stats.triangles += mesh.triangle_count;
-    if (mesh_id) *mesh_id = number;
+    if (Status status = check(mesh); !status) return status;
+    if (Status status = check_count(s.triangles.size(), mesh.triangle_count); !status) return status;
+    s.append(mesh.triangle_count, mesh.mask, mesh.opacity, [&](std::size_t i) { return triangle_of(mesh, i); });
+    if (mesh_id) *mesh_id = static_cast<std::uint32_t>(s.meshes.size() - 1);
     return {};
   } catch (const std::bad_alloc&) {
     return Status::out_of_memory("scene: out of memory while adding a mesh");
+  }
+}
+
+Status Scene::add_prototype(const MeshView& mesh, std::uint32_t* prototype_id) {
+  try {
+    if (!impl_) impl_ = std::make_unique<Impl>();
+    Impl& s = *impl_;
+    if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
+    if (Status status = check(mesh); !status) return status;
+    if (Status status = check_count(0, mesh.triangle_count); !status) return status;
+    std::vector<detail::Triangle> triangles(mesh.triangle_count);
+    for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = triangle_of(mesh, i);
+    const std::uint32_t number = s.instances.add_prototype(detail::Prototype(std::move(triangles)));
+    if (prototype_id) *prototype_id = number;
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::out_of_memory("scene: out of memory while adding a prototype");
+  }
+}
+
+Status Scene::add_instance(const Instance& instance, std::uint32_t* mesh_id) {
+  const std::size_t count = impl_ ? impl_->meshes.size() : 0;
+  try {
+    if (!impl_ || instance.prototype >= impl_->instances.prototype_count())
+      return {StatusCode::invalid_argument, "scene: no prototype " + std::to_string(instance.prototype)};
+    Impl& s = *impl_;
+    if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
+    if (s.instances.size() >= kMaxInstances) return {StatusCode::resource_limit, "scene: more than 2^29 instances"};
+    const detail::Prototype& prototype = s.instances.prototype(instance.prototype);
+    const auto number = static_cast<std::uint32_t>(count);
+    // What kernels see of an instance is a mesh of no triangles.
+    s.meshes.push_back({static_cast<std::uint32_t>(s.triangles.size()), 0, 0xFFFFFFFFu, {}});
+    if (s.instances.add(instance, number)) {
+      s.stats.triangles += prototype.triangle_count();
+      s.stats.instanced_triangles += prototype.triangle_count();
+      s.stats.dropped_nonfinite += prototype.nonfinite_count();
+    } else {
+      s.meshes.pop_back();
+      if (Status status = check_count(s.triangles.size(), prototype.triangle_count()); !status) return status;
+      s.append(prototype.triangle_count(), instance.mask, instance.opacity,
+               [&](std::size_t i) { return detail::placed(instance.to_world, prototype.triangles()[i]); });
+    }
+    if (mesh_id) *mesh_id = number;
+    return {};
+  } catch (const std::bad_alloc&) {
+    if (impl_->meshes.size() > count) impl_->meshes.pop_back();
+    return Status::out_of_memory("scene: out of memory while adding an instance");
   }
 }
 
@@ -170,9 +229,13 @@ void Scene::Impl::build(const BuildOptions& options) {
   bvh = detail::TriangleBvh(triangles.data(), kept.data(), kept.size(), around.scale_exponent, around.eps,
                             options.executor);
   stats.triangle_bytes = triangles.size() * sizeof(detail::Triangle);
+  instances.build(options.executor);
+  bounds.extend(instances.bounds());
   stats.box_bytes = bvh.bytes();
-  stats.bytes = stats.triangle_bytes + stats.box_bytes + (kept.size() + mesh_of.size()) * sizeof(std::uint32_t) +
-                meshes.size() * sizeof(detail::MeshRecord);
+  stats.instances = instances.size();
+  stats.instance_bytes = instances.bytes();
+  stats.bytes = stats.triangle_bytes + stats.box_bytes + stats.instance_bytes +
+                (kept.size() + mesh_of.size()) * sizeof(std::uint32_t) + meshes.size() * sizeof(detail::MeshRecord);
   stats.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   tree->set_stats(stats);
   if (options.tree == TreeBuild::at_commit) tree->build(options.executor);
@@ -188,6 +251,10 @@ void Scene::Impl::make_side_table(KernelId kernel, const Training& training) {
 
 const detail::SceneView* detail::SceneAccess::view(const Scene& scene) noexcept {
   return scene.impl_ && scene.impl_->committed ? &scene.impl_->view : nullptr;
+}
+
+const detail::InstanceTree* detail::SceneAccess::instances(const Scene& scene) noexcept {
+  return scene.impl_ && !scene.impl_->instances.empty() ? &scene.impl_->instances : nullptr;
 }
 
 std::shared_ptr<const detail::SideTable> detail::SceneAccess::default_side(const Scene& scene) noexcept {
@@ -251,18 +318,22 @@ bool Scene::occluded(const Ray& ray, const QueryOptions& options) const noexcept
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& options) const noexcept {
-  if (!impl_ || !impl_->committed)
+  if (!impl_ || !impl_->committed) {
     std::fill(out, out + rays.count, std::uint8_t{0});
-  else
-    impl_->entry_points(options.kernel).occluded(impl_->view_for(options.kernel), rays, out, options);
+    return;
+  }
+  impl_->entry_points(options.kernel).occluded(impl_->view_for(options.kernel), rays, out, options);
+  if (!impl_->instances.empty()) detail::add_instances(impl_->instances, rays, out, options);
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
                      const QueryOptions& options) const noexcept {
-  if (!impl_ || !impl_->committed)
+  if (!impl_ || !impl_->committed) {
     occluded(rays, out, options);
-  else
-    impl_->entry_points(options.kernel).occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    return;
+  }
+  impl_->entry_points(options.kernel).occluded_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+  if (!impl_->instances.empty()) detail::add_instances(impl_->instances, rays, out, options, counts);
 }
 
 bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const noexcept {
@@ -271,17 +342,22 @@ bool Scene::closest(const Ray& ray, Hit& hit, const QueryOptions& options) const
 }
 
 void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const noexcept {
-  if (!impl_ || !impl_->committed)
+  if (!impl_ || !impl_->committed) {
     std::fill(out, out + rays.count, Hit{});
-  else
-    impl_->entry_points(options.kernel).closest(impl_->view_for(options.kernel), rays, out, options);
+    return;
+  }
+  impl_->entry_points(options.kernel).closest(impl_->view_for(options.kernel), rays, out, options);
+  if (!impl_->instances.empty()) detail::add_closest_instances(impl_->instances, impl_->view, rays, out, options);
 }
 
 void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {
-  if (!impl_ || !impl_->committed)
+  if (!impl_ || !impl_->committed) {
     closest(rays, out, options);
-  else
-    impl_->entry_points(options.kernel).closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+    return;
+  }
+  impl_->entry_points(options.kernel).closest_counted(impl_->view_for(options.kernel), rays, out, options, counts);
+  if (!impl_->instances.empty())
+    detail::add_closest_instances(impl_->instances, impl_->view, rays, out, options, &counts);
 }
 
 const BuildStats& Scene::build_stats() const noexcept {
@@ -290,7 +366,7 @@ const BuildStats& Scene::build_stats() const noexcept {
 }
 
 bool Scene::bounds(float lower[3], float upper[3]) const noexcept {
-  const bool any = impl_ && !impl_->kept.empty();
+  const bool any = impl_ && !impl_->bounds.empty();
   for (int k = 0; k < 3; ++k) {
     lower[k] = any ? impl_->bounds.lower[k] : 0;
     upper[k] = any ? impl_->bounds.upper[k] : 0;

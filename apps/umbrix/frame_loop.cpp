@@ -6,6 +6,7 @@
 #include "heat_map_files.h"
 #include "image_metadata.h"
 #include "memory_guard.h"
+#include "moving_scene.h"
 #include "progress.h"
 #include "standard_streams.h"
 #include "stopwatch.h"
@@ -27,6 +28,12 @@ std::string checkpoint_key(const RenderJob& job, const Frame& frame) {
                                       frame.number.value_or(0), part.x, part.y, part.width, part.height));
 }
 
+Status write_preview(const RenderArguments& a, const io::Image& image) {
+  io::WriteOptions options = a.write;
+  options.overwrite = true;
+  return io::write_image(a.preview, image, options);
+}
+
 Status trace(RenderJob& job, const Frame& frame, RunState& state, io::Image& image, FrameReport& report) {
   set_phase("rendering");
   const Stopwatch watch;
@@ -39,11 +46,17 @@ Status trace(RenderJob& job, const Frame& frame, RunState& state, io::Image& ima
     options.store = &state.checkpoints;
   }
   options.cancel = &state.checkpoints.leaving();
+  Status preview_status;
+  if (!job.arguments.preview.empty()) {
+    options.preview = [&](const io::Image& so_far, std::uint32_t) {
+      if (preview_status.ok()) preview_status = write_preview(job.arguments, so_far);
+    };
+  }
   const render::View view = {frame.camera, job.view.lights};
   Status status = render::render(job.world, view, options, image, report.stats);
   state.checkpoints.wait_if_leaving();
   report.seconds.render = watch.seconds();
-  return status;
+  return status.ok() ? preview_status : status;
 }
 
 Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, FrameReport& report) {
@@ -60,6 +73,7 @@ Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, 
 
 void count(RenderJob& job, FrameReport& report) {
   job.stats += report.stats;
+  job.seconds.build += report.seconds.build;
   job.seconds.render += report.seconds.render;
   job.seconds.write += report.seconds.write;
   if (!job.arguments.stats.empty()) job.reports.push_back(std::move(report));
@@ -78,7 +92,8 @@ Status render_all(RenderJob& job, RunState& state, io::Image& image) {
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     FrameReport report;
     report.frame = i;
-    Status status = trace(job, job.frames[i], state, image, report);
+    Status status = move_world(job, job.frames[i], report);
+    if (status.ok()) status = trace(job, job.frames[i], state, image, report);
     if (status.ok()) status = write_images(job, job.frames[i], image, report);
     if (status.ok() && job.arguments.print_pixel) status = print_pixel(job, job.frames[i], image);
     if (!status) return status;
@@ -99,6 +114,9 @@ render::RenderOptions render_options(const RenderJob& job) {
   options.crop = job.window;
   options.samples = a.samples;
   options.light_samples = a.light_samples;
+  options.bounces = a.bounces;
+  options.filter = a.filter;
+  options.ao_distance = a.ao_distance;
   options.seed = a.seed;
   options.aovs = rendered_aovs(a);
   options.kernel = a.kernel;

@@ -116,7 +116,7 @@ Status place_cameras(RenderJob& job) {
     moment.frame = *frame.number;
     moment.seconds = frame.seconds;
     if (Status status = io::camera_at(job.view.camera, moment, frame.camera); !status) {
-      return {status.code(), fmt::format("{}: frame {}: {}", job.camera_file, *frame.number, status.message())};
+      return {status.code(), fmt::format("{}: frame {}: {}", job.origin.camera_file, *frame.number, status.message())};
     }
   }
   return {};

@@ -18,6 +18,7 @@ Metadata common(const RenderJob& job, const Frame& frame) {
                        {"umbrix:seed", std::to_string(a.seed)},
                        {"umbrix:spp", std::to_string(a.samples)}};
   if (a.light_samples > 1) metadata.emplace_back("umbrix:light_samples", std::to_string(a.light_samples));
+  if (a.bounces > 0) metadata.emplace_back("umbrix:bounces", std::to_string(a.bounces));
   if (frame.number) metadata.emplace_back("umbrix:frame", std::to_string(*frame.number));
   if (a.tile) {
     metadata.emplace_back("umbrix:tile", tile_text(*a.tile));

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -25,7 +27,8 @@ Json bounds(const std::vector<render::WorldMesh>& meshes) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   io::Float3 lower = {kInfinity, kInfinity, kInfinity}, upper = {-kInfinity, -kInfinity, -kInfinity};
   for (const render::WorldMesh& mesh : meshes) {
-    for (const io::Float3& position : mesh.positions) {
+    for (std::size_t i = 0; i < mesh.mesh->positions.size(); ++i) {
+      const io::Float3 position = mesh.position(i);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         lower[axis] = std::min(lower[axis], position[axis]);
         upper[axis] = std::max(upper[axis], position[axis]);
@@ -77,6 +80,40 @@ Json cameras(const io::SceneFile& scene) {
   return list;
 }
 
+/// What materials take from an image.
+Json uses_of(const io::SceneFile& scene, std::int32_t image) {
+  constexpr const char* kNames[] = {"base color", "metallic-roughness", "normal",
+                                    "emission",   "specular",           "specular color"};
+  static_assert(std::size(kNames) == std::size(io::kMaterialTextures));
+  Json uses = Json::array();
+  for (std::size_t kind = 0; kind < std::size(kNames); ++kind) {
+    const bool used = std::any_of(scene.materials.begin(), scene.materials.end(), [&](const io::Material& material) {
+      const std::int32_t texture = (material.*io::kMaterialTextures[kind]).texture;
+      return texture >= 0 && scene.textures[static_cast<std::size_t>(texture)].image == image;
+    });
+    if (used) uses.push_back(kNames[kind]);
+  }
+  return uses;
+}
+
+/// Pictures as their headers have them, by what they are used for; nothing is decoded.
+Json images(const io::SceneFile& scene) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const io::TextureImage& image = scene.images[i];
+    Json entry = {{"name", image.file.empty() ? image.name : std::filesystem::path(image.file).filename().string()}};
+    io::ImageInfo header;
+    if (const Status status = io::describe_image(scene, image, header); !status) {
+      entry["fault"] = status.message();
+    } else {
+      entry.update({{"format", header.format}, {"size", {header.width, header.height}}, {"channels", header.channels}});
+    }
+    entry["used_for"] = uses_of(scene, static_cast<std::int32_t>(i));
+    list.push_back(entry);
+  }
+  return list;
+}
+
 /// All that is told, in the order in which it is told.
 Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& meshes,
               const std::vector<std::string>& notes) {
@@ -91,8 +128,10 @@ Json describe(const io::SceneFile& scene, const std::vector<render::WorldMesh>& 
           {"triangles", scene.instanced_triangles()},
           {"stored_triangles", stored},
           {"materials", scene.materials.size()},
-          {"textures", scene.textures},
+          {"textures", scene.textures.size()},
+          {"images", images(scene)},
           {"animations", scene.animations},
+          {"moves_seconds", scene.motion ? Json(io::motion_span(scene)) : Json(nullptr)},
           {"bounds", bounds(meshes)},
           {"cameras", cameras(scene)},
           {"lights", lights(scene)},
@@ -124,7 +163,7 @@ Status run(const std::string& path, bool json) {
   if (Status status = io::load_scene(path, scene); !status) return status;
   std::vector<render::WorldMesh> meshes;
   std::vector<std::string> notes;
-  if (Status status = render::flatten(scene, meshes, notes); !status) return status;
+  if (Status status = render::flatten(scene, meshes, notes, render::Instancing::share); !status) return status;
   const Json description = describe(scene, meshes, notes);
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.
   return print_result(json ? description.dump(2, ' ', false, Json::error_handler_t::replace) + '\n'

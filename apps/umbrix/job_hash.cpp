@@ -23,7 +23,7 @@ constexpr std::array kNotHashed = {
     "scene",     "output",        "setup",    "frames",     "size",       "crop",       "tile",         "pixel",
     "aov",       "heat-map",      "heat-max", "kernel",     "simd",       "threads",    "memory-limit", "build-quality",
     "overwrite", "skip-existing", "resume",   "checkpoint", "time-limit", "create-dir", "dry-run",      "progress",
-    "stats",     "quiet",         "verbose",  "config",     "help"};
+    "stats",     "quiet",         "verbose",  "config",     "help",       "preview",    "instances"};
 
 /// Options that change what one kind of file holds of the same pixels.
 constexpr std::array kOfExr = {"half", "float"};
@@ -95,7 +95,7 @@ std::string picture_options(const CLI::App& command) {
 Status hash_inputs(const RenderJob& job, std::string& out) {
   // Which file is which does not matter: the files themselves say what each other is called.
   std::multiset<std::string> hashes;
-  for (const std::vector<std::string>* files : {&job.scene.files, &job.setup_files}) {
+  for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files}) {
     for (const std::string& path : *files) {
       std::string hash;
       std::error_code error;

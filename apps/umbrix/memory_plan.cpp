@@ -16,11 +16,8 @@ std::uint64_t build_bytes_per_triangle(BuildQuality quality) { return quality ==
 /// What libraries, threads and encoders come to hold while the program runs.
 constexpr std::uint64_t kProgramBytes = 30 << 20;
 
-std::uint64_t placed_vertices(const io::SceneFile& scene) {
-  std::uint64_t count = 0;
-  for (const io::Instance& instance : scene.instances) count += scene.meshes[instance.mesh].positions.size();
-  return count;
-}
+/// A triangle that instances share, with its boxes, and an instance that shares.
+constexpr std::uint64_t kSharedTriangleBytes = 220, kInstanceBytes = 700;
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
 
@@ -29,8 +26,10 @@ double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / (1 <
 MemoryPlan plan_memory(const RenderJob& job) {
   MemoryPlan plan;
   plan.held = resident_bytes() + kProgramBytes;
-  plan.world = placed_vertices(job.scene) * sizeof(io::Float3) +
-               job.scene.instanced_triangles() * build_bytes_per_triangle(job.arguments.build_quality);
+  const render::WorldSize size = render::world_size(job.scene, job.arguments.instancing);
+  plan.world = size.placed_vertices * sizeof(io::Float3) +
+               size.placed_triangles * build_bytes_per_triangle(job.arguments.build_quality) +
+               size.shared_triangles * kSharedTriangleBytes + size.sharing_instances * kInstanceBytes;
   // The floats, a copy of them while they are encoded, and one for a checkpoint.
   const std::uint64_t copies = job.arguments.checkpoints.writes() ? 3 : 2;
   plan.image = copies * render::image_bytes(render_options(job));

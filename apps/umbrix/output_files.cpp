@@ -63,6 +63,12 @@ Status check_outputs(const RenderArguments& a, const std::vector<Frame>& frames)
       if (Status status = check_names(a, list, seen); !status) return status;
     }
   }
+  if (!a.preview.empty()) {
+    if (Status status = check_names(a, {a.preview}, seen); !status) return status;
+    io::WriteOptions options = a.write;
+    options.overwrite = true;
+    if (Status status = io::check_output(a.preview, options); !status) return status;
+  }
   const auto is_exr = [](const std::string& path) { return has_extension(path, ".exr"); };
   if (!a.aovs.empty() && !a.print_pixel && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
     return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};

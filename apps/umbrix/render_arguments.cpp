@@ -100,12 +100,17 @@ void add_sequence_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* frames = command
                             .add_option_function<std::string>(
                                 "--frames", [&a](const std::string& list) { choose_frames(a, list); },
-                                "Frames of a camera that moves, such as 1-3,5,7-20:2; -o then needs #### or %04d")
+                                "Frames of a scene that moves, such as 1-3,5,7-20:2; -o then needs #### or %04d")
                             ->type_name("LIST");
   add_real(
       command, "--fps", 0.001, 100000, [&a](double x) { a.fps = x; },
       "Frames a second: frame F shows a glTF animation at F/X seconds [24]")
       ->needs(frames);
+  command
+      .add_option("--animation", a.animation,
+                  "Play only this of the scene's animations, by name or number from 0 [all that fit together]")
+      ->needs(frames)
+      ->type_name("NAME|N");
 }
 
 void add_image_options(CLI::App& command, RenderArguments& a) {
@@ -121,8 +126,18 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
       command, "--light-samples", 1, render::kMostLightSamples,
       [&a](auto n) { a.light_samples = static_cast<std::uint32_t>(n); },
       "Shadow rays of a sample to each light with an area; with more than 8 such lights, to 8 of them by power [1]");
+  add_integer(
+      command, "--bounces", 0, render::kMostBounces, [&a](auto n) { a.bounces = static_cast<std::uint32_t>(n); },
+      "Times that light goes on from surface to surface before the camera sees it; noisy below some --spp 64 [0]");
   command.add_flag_callback(
       "--no-mesh-lights", [&a] { a.mesh_lights = false; }, "Emissive surfaces are seen, but light nothing");
+  add_choice<render::PixelFilter>(
+      command, "--filter", [&a](render::PixelFilter filter) { a.filter = filter; },
+      {{"box", render::PixelFilter::box},
+       {"triangle", render::PixelFilter::triangle},
+       {"gaussian", render::PixelFilter::gaussian},
+       {"blackman-harris", render::PixelFilter::blackman_harris}},
+      "How a pixel's samples are spread around its centre [box]");
   add_integer(
       command, "--seed", 0, UINT64_MAX, [&a](auto n) { a.seed = n; }, "Another seed, other sample places [0]");
   add_real(
@@ -130,15 +145,21 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
       "Stops by which a PNG is brightened [0]");
   add_choice<io::ToneMap>(
       command, "--tonemap", [&a](io::ToneMap map) { a.write.tone_map = map; },
-      {{"none", io::ToneMap::none}, {"srgb", io::ToneMap::srgb}, {"aces", io::ToneMap::aces}},
+      {{"none", io::ToneMap::none},
+       {"srgb", io::ToneMap::srgb},
+       {"aces", io::ToneMap::aces},
+       {"agx", io::ToneMap::agx}},
       "What a PNG's colours go through [srgb]");
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
-          "More channels for EXR: normal,depth,albedo,shadow,node_tests,primitive_tests,kernel")
+          "More channels for EXR: normal,depth,albedo,indirect,ao,shadow,node_tests,primitive_tests,kernel")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("LIST");
+  add_real(
+      command, "--ao-distance", 1e-30, 1e30, [&a](double x) { a.ao_distance = static_cast<float>(x); },
+      "How far the ambient occlusion of --aov ao looks, in scene units [to infinity]");
   const auto type_flag = [&](const char* flag, io::PixelType type, const char* help) {
     return command.add_flag_callback(
         flag, [&a, type] { a.write.pixel_type = type; }, help);
@@ -198,6 +219,13 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
   add_choice<BuildQuality>(
       command, "--build-quality", [&a](BuildQuality quality) { a.build_quality = quality; },
       {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}}, "How much time the tree may take [high]");
+  add_choice<render::Instancing>(
+      command, "--instances", [&a](render::Instancing instancing) { a.instancing = instancing; },
+      {{"auto", render::Instancing::automatic},
+       {"flatten", render::Instancing::flatten},
+       {"share", render::Instancing::share}},
+      "Whether instances share their mesh: takes little memory and more time, and never changes the picture; auto: in "
+      "large scenes [auto]");
   command
       .add_option_function<std::string>(
           "--simd",
@@ -217,6 +245,10 @@ void add_talking_options(CLI::App& command, RenderArguments& a) {
   add_progress_option(command, a.progress);
   command
       .add_option("--stats", a.stats, "Write what was done as JSON; '-': to stdout. Counts work, so tracing is slower")
+      ->type_name("FILE");
+  command
+      .add_option("--preview", a.preview,
+                  "Image that shows the samples so far and is replaced after 1, 2, 4, 8, ... of --spp")
       ->type_name("FILE");
   CLI::Option* quiet = command.add_flag("-q,--quiet", a.quiet, "Only errors");
   command.add_flag("-v,--verbose", a.verbose, "Also what in the scene is ignored")->excludes(quiet);

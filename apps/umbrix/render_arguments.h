@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,20 +34,26 @@ struct RenderArguments {
   std::string camera;                ///< name or number; empty: the first, or the setup's
   std::vector<int> frames;           ///< empty: a still
   double fps = 24;
+  std::string animation;          ///< name or number; empty: all
   std::optional<Size> size;          ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;  ///< or the one pixel
   std::optional<Tile> tile;          ///< not beside a crop
   bool print_pixel = false;          ///< of a crop of one pixel
   std::uint32_t samples = 1;
   std::uint32_t light_samples = 1;
+  std::uint32_t bounces = 0;
   bool mesh_lights = true;
+  render::PixelFilter filter = render::PixelFilter::box;
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;
+  float ao_distance = std::numeric_limits<float>::infinity();
+  std::string preview;                 ///< file, or empty
   std::vector<HeatMapFile> heat_maps;  ///< for frames, with a place for their number
   io::WriteOptions write;              ///< exposure, tone map, pixel type, overwrite
   KernelId kernel;
   std::string kernel_name = "auto";
   std::string simd_target;  ///< empty: the best
+  render::Instancing instancing = render::Instancing::automatic;
   BuildQuality build_quality = BuildQuality::high;
   int threads = 0;                                      ///< 0: all that are allowed
   std::uint64_t memory_limit = default_memory_limit();  ///< bytes; 0: none

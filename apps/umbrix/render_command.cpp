@@ -15,6 +15,7 @@
 #include "memory_guard.h"
 #include "memory_plan.h"
 #include "message.h"
+#include "moving_scene.h"
 #include "output_files.h"
 #include "render/threads.h"
 #include "render_job.h"
@@ -37,7 +38,8 @@ void warn(const RenderJob& job) {
   if (job.arguments.quiet) return;
   for (const std::string& text : job.scene.warnings) say_warning(text);
   for (const std::string& text : job.world.notes) say_warning(text);
-  if (job.frames.size() > 1 && !job.view.camera.motion) say_warning("the camera does not move: all frames are alike");
+  const bool moves = job.view.camera.motion || job.scene.motion;
+  if (job.frames.size() > 1 && !moves) say_warning("nothing moves: all frames are alike");
   if (!job.arguments.verbose) return;
   for (const std::string& text : job.scene.ignored) say(fmt::format("umbrix: ignored: {}", text));
 }
@@ -60,6 +62,7 @@ Status describe_plan(const RenderJob& job) {
 io::LoadLimits load_limits(const RenderArguments& a) {
   io::LoadLimits limits;
   if (a.memory_limit > 0) limits.file_bytes = std::min(limits.file_bytes, a.memory_limit);
+  limits.image_bytes = a.memory_limit;
   return limits;
 }
 
@@ -98,9 +101,9 @@ Status load(RenderJob& job) {
   if (!a.create_folders) {
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
-  if (Status status = io::load_scene(a.scene, job.scene, load_limits(a)); !status) return status;
+  if (Status status = io::load_scene(a.scene, job.scene, load_limits(a), a.animation); !status) return status;
   const ViewChoice choice = {a.setup, a.camera, a.mesh_lights};
-  if (Status status = choose_view(job.scene, choice, job.view, job.camera_file, job.setup_files); !status) {
+  if (Status status = choose_view(job.scene, choice, job.view, job.origin); !status) {
     return status;
   }
   if (Status status = place_cameras(job); !status) return status;
@@ -119,18 +122,13 @@ Status load(RenderJob& job) {
   return {};
 }
 
-Status build(RenderJob& job) {
+/// What textures decode to is known only now.
+Status read_textures(RenderJob& job) {
   const Stopwatch watch;
-  set_phase("building the tree");
-  BuildOptions options;
-  options.quality = job.arguments.build_quality;
-  Status status = render::build_world(job.scene, options, job.world);
-  if (status.ok()) {
-    const bool automatic = job.arguments.kernel_name == "auto";
-    status = automatic ? job.tracer.start(job.world.scene) : job.world.scene.prepare(job.arguments.kernel);
-  }
-  job.seconds.build = watch.seconds();
-  return status;
+  set_phase("reading textures");
+  if (Status status = io::read_textures(job.scene, load_limits(job.arguments)); !status) return status;
+  job.seconds.load += watch.seconds();
+  return check_memory(job);
 }
 
 Status write_report(const RenderJob& job) {
@@ -154,7 +152,8 @@ Status run(const RenderArguments& a) {
   job.threads = a.threads > 0 ? a.threads : allowed_threads();
   Status status;
   const auto work = [&] {
-    status = build(job);
+    status = read_textures(job);
+    if (status.ok()) status = build_world(job);
     if (!status) return;
     warn(job);
     status = render_frames(job, checkpoints);

@@ -8,6 +8,7 @@
 
 #include "render/render.h"
 #include "render_arguments.h"
+#include "view_choice.h"
 
 namespace umbrix::app {
 
@@ -30,7 +31,9 @@ struct Frame {
 struct FrameReport {
   std::size_t frame = 0;  ///< in RenderJob::frames
   render::RenderStats stats;
-  PhaseSeconds seconds;  ///< render and write
+  PhaseSeconds seconds;             ///< build, render and write
+  std::size_t moved_instances = 0;  ///< since the frame before, for which the tree was built anew
+  bool moved_lights = false;
 };
 
 /// One run of `umbrix render`, filled from phase to phase.
@@ -39,17 +42,17 @@ struct RenderJob {
 
   const RenderArguments& arguments;
   io::SceneFile scene;
-  render::View view;                     ///< the camera at rest
-  std::string camera_file;               ///< where the camera is from
-  std::vector<std::string> setup_files;  ///< all that the setup was read from
-  std::string inputs_hash;               ///< of scene and setup, see job_hash.h
-  std::string pixels_hash;               ///< of all that the frames' floats depend on
-  std::vector<Frame> frames;             ///< to render: what is asked for, but what is there already
-  std::size_t skipped = 0;               ///< frames that are there already
-  Size size;                             ///< of a frame
-  std::optional<render::Crop> window;    ///< the part of it to render: crop, pixel or tile
+  render::View view;                   ///< the camera at rest
+  ViewOrigin origin;                   ///< of the view
+  std::string inputs_hash;             ///< of scene and setup, see job_hash.h
+  std::string pixels_hash;             ///< of all that the frames' floats depend on
+  std::vector<Frame> frames;           ///< to render: what is asked for, but what is there already
+  std::size_t skipped = 0;             ///< frames that are there already
+  Size size;                           ///< of a frame
+  std::optional<render::Crop> window;  ///< the part of it to render: crop, pixel or tile
   int threads = 1;
   render::World world;
+  std::size_t trees_built = 0;
   FrameTracer tracer;                ///< of shadow rays, unless a kernel was asked for
   std::vector<FrameReport> reports;  ///< kept for --stats only
   render::RenderStats stats;         ///< of all frames

@@ -84,6 +84,8 @@ Json build(const BuildStats& b) {
   return {{"triangles", b.triangles},
           {"dropped_nonfinite", b.dropped_nonfinite},
           {"dropped_degenerate", b.dropped_degenerate},
+          {"instances", b.instances},
+          {"instanced_triangles", b.instanced_triangles},
           {"nodes", b.nodes},
           {"leaves", b.leaves},
           {"empty_leaves", b.empty_leaves},
@@ -95,6 +97,7 @@ Json build(const BuildStats& b) {
           {"leaf_bytes", b.leaf_bytes},
           {"triangle_bytes", b.triangle_bytes},
           {"box_bytes", b.box_bytes},
+          {"instance_bytes", b.instance_bytes},
           {"bytes", b.bytes},
           {"seconds_prepare", b.seconds_prepare},
           {"seconds_tree", b.seconds_tree},
@@ -102,11 +105,12 @@ Json build(const BuildStats& b) {
           {"seconds", b.seconds}};
 }
 
-Json camera_rays(const render::RenderStats& stats) {
-  return {{"rays", stats.camera_rays},
-          {"hits", stats.camera_hits},
-          {"thread_seconds", stats.camera_seconds},
-          {"mrays_per_second_per_thread", ratio(mega(stats.camera_rays), stats.camera_seconds)}};
+/// Of rays to the nearest surface.
+Json closest_rays(std::uint64_t rays, std::uint64_t hits, double seconds) {
+  return {{"rays", rays},
+          {"hits", hits},
+          {"thread_seconds", seconds},
+          {"mrays_per_second_per_thread", ratio(mega(rays), seconds)}};
 }
 
 /// "camera", "shadow", "lights" and "mrays_per_second", of a frame or of all.
@@ -118,21 +122,26 @@ void add_rays(const RenderJob& job, const render::RenderStats& stats, double sec
     light.update(shadow_rays(stats.lights[i]));
     lights.push_back(light);
   }
-  out["camera"] = camera_rays(stats);
+  out["camera"] = closest_rays(stats.camera_rays, stats.camera_hits, stats.camera_seconds);
+  out["bounces"] = closest_rays(stats.bounce_rays, stats.bounce_hits, stats.bounce_seconds);
   out["shadow"] = shadow_rays(shadow);
   out["lights"] = lights;
   if (stats.frame.rays > 0) out["prediction"] = prediction(stats.frame);
-  out["mrays_per_second"] = ratio(mega(stats.camera_rays + shadow.rays()), seconds);
+  out["mrays_per_second"] = ratio(mega(stats.camera_rays + stats.bounce_rays + shadow.rays()), seconds);
 }
 
 Json frames(const RenderJob& job) {
   Json list = Json::array();
   for (const FrameReport& report : job.reports) {
     const Frame& frame = job.frames[report.frame];
-    Json entry = {{"frame", frame.number.value_or(0)},
-                  {"time", frame.seconds},
-                  {"outputs", output_files(frame.outputs, frame.heat_maps)},
-                  {"seconds", {{"render", report.seconds.render}, {"write", report.seconds.write}}}};
+    Json entry = {
+        {"frame", frame.number.value_or(0)},
+        {"time", frame.seconds},
+        {"outputs", output_files(frame.outputs, frame.heat_maps)},
+        {"moved_instances", report.moved_instances},
+        {"moved_lights", report.moved_lights},
+        {"seconds",
+         {{"build", report.seconds.build}, {"render", report.seconds.render}, {"write", report.seconds.write}}}};
     add_rays(job, report.stats, report.seconds.render, entry);
     list.push_back(entry);
   }
@@ -163,6 +172,11 @@ std::vector<std::string> summary(const RenderJob& job) {
                   mega(shadow.skipped())),
       fmt::format("time    load {:.2f} s, build {:.2f} s, render {:.2f} s on {} threads, write {:.2f} s",
                   job.seconds.load, job.seconds.build, job.seconds.render, job.threads, job.seconds.write)};
+  if (job.stats.bounce_rays > 0) {
+    lines.insert(lines.begin() + 3,
+                 fmt::format("bounces {:.2f} M rays, {:.2f} M rays/s a thread", mega(job.stats.bounce_rays),
+                             ratio(mega(job.stats.bounce_rays), job.stats.bounce_seconds)));
+  }
   if (!job.arguments.frames.empty()) lines.push_back(frames_line(job));
   return lines;
 }
@@ -176,6 +190,7 @@ std::string stats_text(const RenderJob& job) {
                 {"height", job.size.height},
                 {"samples_per_pixel", a.samples},
                 {"light_samples", a.light_samples},
+                {"bounces", a.bounces},
                 {"seed", a.seed},
                 {"triangles", job.world.scene.build_stats().triangles},
                 {"kernel", a.kernel_name},
@@ -192,6 +207,7 @@ std::string stats_text(const RenderJob& job) {
   if (!a.frames.empty()) {
     stats["fps"] = a.fps;
     stats["skipped_frames"] = job.skipped;
+    stats["trees_built"] = job.trees_built;
     stats["frames"] = frames(job);
   }
   // File names and glTF strings may not be UTF-8: replace what is not, rather than fail.

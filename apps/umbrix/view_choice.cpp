@@ -28,10 +28,9 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
 
 }  // namespace
 
-Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, std::string& camera_file,
-                   std::vector<std::string>& setup_files) {
+Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, ViewOrigin& origin) {
   io::Setup setup;
-  camera_file = scene.path;
+  origin.camera_file = scene.path;
   if (!choice.setup.empty()) {
     if (Status status = io::load_setup(choice.setup, scene, setup); !status) return status;
   }
@@ -39,16 +38,17 @@ Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render:
     if (Status status = find_camera(scene, choice.camera, view.camera); !status) return status;
   } else if (setup.camera) {
     view.camera = *setup.camera;
-    camera_file = choice.setup;
+    origin.camera_file = choice.setup;
   } else {
     view.camera = scene.cameras.empty() ? io::framing_camera(scene) : scene.cameras.front();
   }
-  setup_files = setup.files;
+  origin.scene_lights = setup.lights.empty();
+  origin.setup_files = setup.files;
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
   if (choice.mesh_lights) {
     for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
   }
-  if (view.lights.empty()) view.lights.push_back(io::default_light(view.camera));
+  if (view.lights.empty()) view.lights = io::default_lights(scene, view.camera);
   return {};
 }
 

@@ -9,6 +9,13 @@
 
 namespace umbrix::app {
 
+/// Where what a view shows is from.
+struct ViewOrigin {
+  std::string camera_file;
+  std::vector<std::string> setup_files;  ///< all that the setup was read from
+  bool scene_lights = false;             ///< the view's first lights are the scene's, in their order
+};
+
 /// What the command line says of it.
 struct ViewChoice {
   const std::string& setup;   ///< a file; empty: none
@@ -17,10 +24,9 @@ struct ViewChoice {
 };
 
 /// Chooses camera and lights: those asked for, else the setup's, else the scene's, else ones that show the scene.
-/// Emissive meshes light the scene beside any of these, if wanted. `camera_file` is where the camera is from,
-/// `setup_files` what the setup was read from. bad_input: the setup; invalid_argument: no such camera.
-Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, std::string& camera_file,
-                   std::vector<std::string>& setup_files);
+/// Emissive meshes light the scene beside any of these, if wanted. bad_input: the setup; invalid_argument: no such
+/// camera.
+Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, ViewOrigin& origin);
 
 /// width / height that the camera was made for; 16:9 if it does not say.
 double natural_aspect(const io::Camera& camera);

@@ -18,4 +18,7 @@ Check check_leaf_walks;
 /// Row 31: 1 to 64 threads, while links and the wide tree grow and a frame tracer learns.
 Check check_threads;
 
+/// Row 33: instances of every kind, any kernel and instruction set, against each placed as a mesh of its own.
+Check check_instances;
+
 }  // namespace umbrix::bench

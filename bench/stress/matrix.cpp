@@ -71,6 +71,7 @@ const std::vector<MatrixRow>& stress_matrix() {
       {30, "links", "links visit the leaves of the stack walk", check_leaf_walks, 1e6},
       {31, "threads", "1 to 64 threads, tables growing: the same hash", check_threads, 1e7},
       {32, "host-modes", "flushed denormals, directed rounding: as exact arithmetic"},
+      {33, "instances", "instances as meshes of placed vertices, to the last bit", check_instances, 1e6},
   };
   return rows;
 }

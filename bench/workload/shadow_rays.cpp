@@ -85,7 +85,7 @@ Status find_viewpoint(const Geometry& geometry, const std::string& setup_path, V
     if (setup.camera) out.camera = *setup.camera;
     if (!setup.lights.empty()) out.lights = setup.lights;
   }
-  if (out.lights.empty()) out.lights.push_back(io::default_light(out.camera));
+  if (out.lights.empty()) out.lights = io::default_lights(file, out.camera);
   return {};
 }
 

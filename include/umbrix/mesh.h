@@ -7,7 +7,8 @@
 namespace umbrix {
 
 /// Decides whether a triangle blocks at a point, for alpha-masked surfaces. Called from any thread, only
-/// for points that are hit; must return the same answer for the same arguments. `u`, `v` as in Hit.
+/// for points that are hit; must return the same answer for the same arguments. `u`, `v` as in Hit. AlphaTest
+/// (opacity.h) is one made of an image.
 struct OpacityTest {
   bool (*opaque)(const void* user, std::uint32_t triangle, float u, float v) = nullptr;
   const void* user = nullptr;

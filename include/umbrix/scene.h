@@ -6,6 +6,7 @@
 
 #include "umbrix/executor.h"
 #include "umbrix/export.h"
+#include "umbrix/instance.h"
 #include "umbrix/kernel.h"
 #include "umbrix/mesh.h"
 #include "umbrix/ray.h"
@@ -82,6 +83,19 @@ class UMBRIX_API Scene {
   /// resource_limit: no memory, or more than 2^29 triangles.
   Status add(const MeshView& mesh, std::uint32_t* mesh_id = nullptr);
 
+  /// Copies in a mesh that is seen through its instances alone; `*prototype_id`, if given, receives its number, which
+  /// is none of a mesh. Its mask and opacity do not count. Fails as add does; each prototype may have 2^29 triangles.
+  Status add_prototype(const MeshView& mesh, std::uint32_t* prototype_id = nullptr);
+
+  /// Adds a prototype's mesh with its vertices moved by transform_point: all answers are, bit for bit, those that add
+  /// would give for them. It takes the next number of a mesh; Primitive, skip, mask and opacity go by it. But its
+  /// triangles take no memory of their own, unless the transform has no inverse to speak of, or moves so far that float
+  /// leaves little of the shape: then they are added as a mesh's. Rays take longer (docs/instances.md): it pays for
+  /// large meshes that are used again and again.
+  /// invalid_argument: no such prototype, a scene already committed. resource_limit: no memory, 2^29 instances, or too
+  /// many triangles where they have to be added.
+  Status add_instance(const Instance& instance, std::uint32_t* mesh_id = nullptr);
+
   /// Makes all that an ordinary frame of the default kernel needs; the tree too if the options say so. resource_limit:
   /// no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
@@ -113,7 +127,7 @@ class UMBRIX_API Scene {
   /// What commit did, and with the tree's figures once it is built; zeros before.
   const BuildStats& build_stats() const noexcept;
 
-  /// The box of the kept triangles; false (and zeros) if there are none.
+  /// The box of the kept triangles (and of those without area in instances); false (and zeros) if there are none.
   bool bounds(float lower[3], float upper[3]) const noexcept;
 
  private:

@@ -47,10 +47,12 @@ struct OcclusionCounts {
 
 /// What Scene::commit made and what it cost. What is said of nodes and leaves is of the tree: zeros until it is built.
 struct BuildStats {
-  std::uint64_t triangles = 0;           ///< added
-  std::uint64_t dropped_nonfinite = 0;   ///< with a NaN or infinite vertex
-  std::uint64_t dropped_degenerate = 0;  ///< with no area (decided exactly)
-  std::uint64_t nodes = 0;               ///< inner and leaf
+  std::uint64_t triangles = 0;            ///< added, those of instances for each of them
+  std::uint64_t dropped_nonfinite = 0;    ///< with a NaN or infinite vertex
+  std::uint64_t dropped_degenerate = 0;   ///< with no area (decided exactly); not told of those that stay instances
+  std::uint64_t instances = 0;            ///< that share their prototype's triangles (see Scene::add_instance)
+  std::uint64_t instanced_triangles = 0;  ///< of the triangles, those of such instances
+  std::uint64_t nodes = 0;                ///< inner and leaf
   std::uint64_t leaves = 0;
   std::uint64_t empty_leaves = 0;
   std::uint64_t references = 0;    ///< triangles summed over the leaves
@@ -61,6 +63,7 @@ struct BuildStats {
   std::uint64_t leaf_bytes = 0;
   std::uint64_t triangle_bytes = 0;  ///< the exact vertices
   std::uint64_t box_bytes = 0;       ///< the hierarchy of boxes, with vertices of its own
+  std::uint64_t instance_bytes = 0;  ///< instances, and prototypes with their boxes
   std::uint64_t bytes = 0;           ///< all that stays
   double seconds_prepare = 0;        ///< checking, scaling, bounds, first sort
   double seconds_tree = 0;           ///< choosing and making splits

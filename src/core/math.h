@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -15,6 +16,12 @@ using DVec3 = glm::dvec3;
 struct Triangle {
   Vec3 v[3];
 };
+
+inline bool is_finite(const Triangle& triangle) noexcept {
+  for (const Vec3& v : triangle.v)
+    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) return false;
+  return true;
+}
 
 /// A closed axis-aligned box; empty while lower > upper on some axis.
 struct Box {

@@ -55,8 +55,9 @@ bool hits(const Ray& ray, const Triangle& triangle, OrderedHit& hit, Counts& cou
 }
 
 /// Does hit a come before hit b? Equal distances are told apart by the ids, lowest first.
-inline bool comes_before(const Ray& ray, const OrderedHit& a, const Triangle& triangle_a, std::uint32_t id_a,
-                         const OrderedHit& b, const Triangle& triangle_b, std::uint32_t id_b) noexcept {
+template <class Id>
+bool comes_before(const Ray& ray, const OrderedHit& a, const Triangle& triangle_a, Id id_a, const OrderedHit& b,
+                  const Triangle& triangle_b, Id id_b) noexcept {
   if (a.t_high < b.t_low) return true;
   if (b.t_high < a.t_low) return false;
   const int order = compare_t_exactly(ray, triangle_a, triangle_b);

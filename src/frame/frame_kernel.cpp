@@ -88,11 +88,18 @@ class EachRay {
   NoState no_state_{tile_.scene};
 };
 
+/// What groups walk. Counted rays build it first, so that counts do not depend on what was asked before.
+template <class Counts>
+const WideTree* find_wide(const FrameTile& tile) {
+  if (!tile.tables.view) return tile.tables.wide;
+  return !std::is_same_v<Counts, NoCounts> ? tile.tables.view->need_wide()
+                                           : tile.tables.view->earn_wide(tile.rays.rays.count);
+}
+
 template <class Counts>
 void trace_with(FrameTile& tile) {
   if (tile.tables.view && LightTrace<Counts>(tile.scene, *tile.tables.view).trace(tile.rays)) return;
-  const WideTree* const wide = tile.tables.view ? tile.tables.view->need_wide() : tile.tables.wide;
-  if (wide) {
+  if (const WideTree* const wide = find_wide<Counts>(tile)) {
     Group<TileMemory, Counts> group(tile.scene, *wide, tile.rays, tile.memory, tile.method != FrameMethod::beam);
     group.trace();
     tile.tries = group.tries();

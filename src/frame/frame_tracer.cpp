@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/parallel_for.h"
+#include "frame/frame_instances.h"
 #include "frame/frame_kernel.h"
 #include "frame/frame_samples.h"
 #include "frame/tile_memory.h"
@@ -71,7 +72,9 @@ void add(Confusion& sum, const Confusion& part) {
 // Hidden: the class that holds it is exported.
 struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   Impl(const Scene& the_scene, const FrameOptions& the_options)
-      : scene(*detail::SceneAccess::view(the_scene)), options(the_options) {
+      : scene(*detail::SceneAccess::view(the_scene)),
+        instances(detail::SceneAccess::instances(the_scene)),
+        options(the_options) {
     const detail::Tree& tree = *scene.tree;
     extent = std::ldexp(static_cast<double>(tree.root.largest_extent()), -tree.scale_exponent);
     if (!(extent > 0) || !std::isfinite(extent)) extent = 1;
@@ -166,6 +169,7 @@ struct __attribute__((visibility("hidden"))) FrameTracer::Impl {
   }
 
   detail::SceneView scene;
+  const detail::InstanceTree* instances;  ///< asked after all else; nothing is remembered of them. Null: none
   FrameOptions options;
   double extent = 1;
   double cell_size = 1;
@@ -219,7 +223,7 @@ void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
   work.rays.each = tile.each;
   work.rays.sums = sums ? &*sums : nullptr;
   work.rays.route_rays = routes;
-  detail::trace_tile(work);
+  instances ? detail::trace_tile(*instances, work) : detail::trace_tile(work);
   if (!in_frame) return;
 
   const std::lock_guard<std::mutex> lock(mutex);

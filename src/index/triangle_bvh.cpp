@@ -112,7 +112,7 @@ class Builder {
       box.lower[axis] = bounds.lower[axis];
       box.upper[axis] = -bounds.minus_upper[axis];
     }
-    return grown(box, eps_);
+    return eps_ > 0 ? grown(box, eps_) : box;
   }
 
   static void set_box(const Box& box, std::uint32_t lane, BvhNode& node) {

@@ -45,7 +45,8 @@ inline constexpr std::uint32_t kMaxBvhDepth = 64;
 class TriangleBvh {
  public:
   TriangleBvh() = default;
-  /// Over the triangles named by `kept`, times 2^exponent, with boxes grown by `eps`. Throws std::bad_alloc, or what
+  /// Over the triangles named by `kept`, times 2^exponent, with boxes grown by `eps`, or if that
+  /// is 0 exact ones. Throws std::bad_alloc, or what
   /// the executor throws (null: oneTBB).
   TriangleBvh(const Triangle* triangles, const std::uint32_t* kept, std::size_t kept_count, int exponent, float eps,
               const Executor* executor);

@@ -88,19 +88,97 @@ bool is_index_type(int type) {
          type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-bool is_attribute(AccessorUse use) { return use != AccessorUse::key && use != AccessorUse::rotation; }
+// What a refusal calls the use.
+const char* use_name(AccessorUse use) {
+  switch (use) {
+    case AccessorUse::key:
+    case AccessorUse::rotation:
+    case AccessorUse::morph_weight:
+      return "animation";
+    case AccessorUse::inverse_bind:
+      return "skin";
+    case AccessorUse::placement:
+    case AccessorUse::turn:
+      return "instancing";
+    default:
+      return "attribute";
+  }
+}
+
+// Uses for which KHR_mesh_quantization allows more.
+bool can_be_quantized(AccessorUse use) {
+  return use == AccessorUse::position || use == AccessorUse::normal || use == AccessorUse::texcoord;
+}
 
 // May a value be stored so? The small integers beyond core glTF need KHR_mesh_quantization.
 bool allowed(AccessorUse use, int type, bool normalized, bool quantized) {
   const bool is_signed = type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT;
   const bool is_unsigned =
       type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
-  if (type == TINYGLTF_COMPONENT_TYPE_FLOAT) return !normalized;
-  if (use == AccessorUse::key) return false;
-  if (use == AccessorUse::rotation) return (is_signed || is_unsigned) && normalized;
-  if (use == AccessorUse::normal) return quantized && is_signed && normalized;
-  if (use == AccessorUse::texcoord && is_unsigned && normalized) return true;
-  return quantized && (is_signed || is_unsigned);
+  const bool is_float = type == TINYGLTF_COMPONENT_TYPE_FLOAT && !normalized;
+  switch (use) {
+    case AccessorUse::joint:
+      return is_unsigned && !normalized;
+    case AccessorUse::key:
+    case AccessorUse::inverse_bind:
+    case AccessorUse::placement:
+      return is_float;
+    case AccessorUse::weight:
+      return is_float || (is_unsigned && normalized);
+    case AccessorUse::rotation:
+    case AccessorUse::morph_weight:
+      return is_float || ((is_signed || is_unsigned) && normalized);
+    case AccessorUse::turn:
+      return is_float || (is_signed && normalized);
+    case AccessorUse::color:
+      return is_float || (is_unsigned && normalized);
+    case AccessorUse::normal:
+    case AccessorUse::tangent:
+      return is_float || (quantized && is_signed && normalized);
+    case AccessorUse::texcoord:
+      return is_float || (is_unsigned && normalized) || (quantized && (is_signed || is_unsigned));
+    case AccessorUse::position:
+      return is_float || (quantized && (is_signed || is_unsigned));
+  }
+  return false;
+}
+
+// The accessor type of elements of N components.
+struct ElementType {
+  int type;
+  const char* name;
+};
+
+template <std::size_t N>
+constexpr ElementType element_type() {
+  switch (N) {
+    case 1:
+      return {TINYGLTF_TYPE_SCALAR, "SCALAR"};
+    case 2:
+      return {TINYGLTF_TYPE_VEC2, "VEC2"};
+    case 3:
+      return {TINYGLTF_TYPE_VEC3, "VEC3"};
+    case 4:
+      return {TINYGLTF_TYPE_VEC4, "VEC4"};
+    default:
+      return {TINYGLTF_TYPE_MAT4, "MAT4"};
+  }
+}
+
+// Where a view's bytes begin; all of them lie within its buffer.
+const unsigned char* view_data(const tinygltf::Model& model, int view_number, const std::string& label) {
+  if (view_number < 0 || static_cast<std::size_t>(view_number) >= model.bufferViews.size()) {
+    bad_input("{}: bufferView {} does not exist", label, view_number);
+  }
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(view_number)];
+  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size()) {
+    bad_input("{}: the buffer of bufferView {} does not exist", label, view_number);
+  }
+  const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
+    bad_input("{}: bufferView {} lies beyond its buffer of {} bytes", label, view_number, data.size());
+  }
+  return data.data() + view.byteOffset;
 }
 
 }  // namespace
@@ -122,17 +200,8 @@ std::uint64_t AccessorReader::count(int accessor) const { return accessor_at(acc
 
 AccessorReader::Bytes AccessorReader::locate(int view_number, std::uint64_t offset, std::uint64_t count,
                                              const Encoding& encoding, const std::string& label) const {
-  if (view_number < 0 || static_cast<std::size_t>(view_number) >= model_.bufferViews.size()) {
-    bad_input("{}: bufferView {} does not exist", label, view_number);
-  }
+  const unsigned char* const data = view_data(model_, view_number, label);
   const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(view_number)];
-  if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size()) {
-    bad_input("{}: the buffer of bufferView {} does not exist", label, view_number);
-  }
-  const std::vector<unsigned char>& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
-    bad_input("{}: bufferView {} lies beyond its buffer of {} bytes", label, view_number, data.size());
-  }
   const std::uint64_t stride = view.byteStride != 0 ? view.byteStride : encoding.bytes();
   if (stride < encoding.bytes() || stride % encoding.component_bytes != 0) {
     bad_input("{}: a stride of {} bytes does not fit elements of {}", label, stride, encoding.bytes());
@@ -147,7 +216,7 @@ AccessorReader::Bytes AccessorReader::locate(int view_number, std::uint64_t offs
     bad_input("{}: {} elements of {} bytes at offset {} lie beyond bufferView {} of {} bytes", label, count,
               encoding.bytes(), offset, view_number, view.byteLength);
   }
-  return {data.data() + view.byteOffset + (count > 0 ? offset : 0), static_cast<std::size_t>(stride)};
+  return {data + (count > 0 ? offset : 0), static_cast<std::size_t>(stride)};
 }
 
 void AccessorReader::spend(std::uint64_t elements, std::size_t bytes_each, bool backed, const std::string& label) {
@@ -163,18 +232,17 @@ void AccessorReader::spend(std::uint64_t elements, std::size_t bytes_each, bool 
 }
 
 template <std::size_t N>
-std::vector<std::array<float, N>> AccessorReader::decode(int number, AccessorUse use, int type) {
+std::vector<std::array<float, N>> AccessorReader::values(int number, AccessorUse use) {
   const tinygltf::Accessor& accessor = accessor_at(number);
   const std::string label = fmt::format("accessors[{}]", number);
-  if (accessor.type != type) {
-    bad_input("{}: must be of type {}", label, N == 1 ? std::string("SCALAR") : fmt::format("VEC{}", N));
-  }
+  constexpr ElementType kType = element_type<N>();
+  if (accessor.type != kType.type) bad_input("{}: must be of type {}", label, kType.name);
   const Encoding encoding{accessor.componentType, component_bytes(accessor.componentType, label), N,
                           accessor.normalized};
   if (!allowed(use, accessor.componentType, accessor.normalized, quantized_)) {
     bad_input("{}: componentType {}{} is not allowed for this {}{}", label, accessor.componentType,
-              accessor.normalized ? " normalized" : "", is_attribute(use) ? "attribute" : "animation",
-              quantized_ || !is_attribute(use) ? "" : " without KHR_mesh_quantization");
+              accessor.normalized ? " normalized" : "", use_name(use),
+              quantized_ || !can_be_quantized(use) ? "" : " without KHR_mesh_quantization");
   }
 
   const bool backed = accessor.bufferView >= 0;
@@ -226,24 +294,17 @@ void AccessorReader::apply_sparse(const tinygltf::Accessor& accessor, const Enco
   }
 }
 
-std::vector<std::array<float, 3>> AccessorReader::vectors(int accessor, AccessorUse use) {
-  return decode<3>(accessor, use, TINYGLTF_TYPE_VEC3);
-}
+template std::vector<std::array<float, 1>> AccessorReader::values<1>(int, AccessorUse);
+template std::vector<std::array<float, 2>> AccessorReader::values<2>(int, AccessorUse);
+template std::vector<std::array<float, 3>> AccessorReader::values<3>(int, AccessorUse);
+template std::vector<std::array<float, 4>> AccessorReader::values<4>(int, AccessorUse);
+template std::vector<std::array<float, 16>> AccessorReader::values<16>(int, AccessorUse);
 
-std::vector<std::array<float, 2>> AccessorReader::texcoords(int accessor) {
-  return decode<2>(accessor, AccessorUse::texcoord, TINYGLTF_TYPE_VEC2);
-}
-
-std::vector<float> AccessorReader::times(int accessor) {
-  std::vector<float> out;
-  for (const std::array<float, 1>& time : decode<1>(accessor, AccessorUse::key, TINYGLTF_TYPE_SCALAR)) {
-    out.push_back(time[0]);
-  }
+std::vector<std::array<float, 4>> AccessorReader::colors(int accessor) {
+  if (accessor_at(accessor).type != TINYGLTF_TYPE_VEC3) return values<4>(accessor, AccessorUse::color);
+  std::vector<std::array<float, 4>> out;
+  for (const std::array<float, 3>& c : values<3>(accessor, AccessorUse::color)) out.push_back({c[0], c[1], c[2], 1});
   return out;
-}
-
-std::vector<std::array<float, 4>> AccessorReader::rotations(int accessor) {
-  return decode<4>(accessor, AccessorUse::rotation, TINYGLTF_TYPE_VEC4);
 }
 
 std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t vertex_count) {
@@ -264,6 +325,11 @@ std::vector<std::uint32_t> AccessorReader::indices(int number, std::uint64_t ver
     }
   }
   return out;
+}
+
+std::vector<unsigned char> view_bytes(const tinygltf::Model& model, int view, const std::string& label) {
+  const unsigned char* const data = view_data(model, view, label);
+  return {data, data + model.bufferViews[static_cast<std::size_t>(view)].byteLength};
 }
 
 }  // namespace umbrix::io::detail

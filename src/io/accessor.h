@@ -10,9 +10,24 @@
 
 namespace umbrix::io::detail {
 
-/// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 sections 3.7.2.1 and 3.11, and
-/// KHR_mesh_quantization).
-enum class AccessorUse { position, normal, texcoord, key, rotation };
+/// What an accessor's values are for; decides the encodings that are allowed (glTF 2.0 sections 3.7.2.1, 3.7.3
+/// and 3.11, and KHR_mesh_quantization): `key` are times, translations and scales of animations, `placement` and `turn`
+/// those of EXT_mesh_gpu_instancing.
+enum class AccessorUse {
+  position,
+  normal,
+  tangent,
+  texcoord,
+  color,
+  joint,
+  weight,
+  inverse_bind,
+  key,
+  rotation,
+  morph_weight,
+  placement,
+  turn
+};
 
 /// Turns accessors into plain arrays: the only place that touches a file's buffers. Strided, normalised, quantised and
 /// sparse forms are decoded; each read is checked against its view and each view against its buffer, before memory is
@@ -25,12 +40,15 @@ class AccessorReader {
   /// How many elements an accessor has, by its own word.
   std::uint64_t count(int accessor) const;
 
-  std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use);
-  std::vector<std::array<float, 2>> texcoords(int accessor);
+  /// Elements of N components: 1 to 4, or 16 for matrices.
+  template <std::size_t N>
+  std::vector<std::array<float, N>> values(int accessor, AccessorUse use);
 
-  /// An animation's times, in seconds, and rotations (x, y, z, w), as they stand in the file.
-  std::vector<float> times(int accessor);
-  std::vector<std::array<float, 4>> rotations(int accessor);
+  std::vector<std::array<float, 3>> vectors(int accessor, AccessorUse use) { return values<3>(accessor, use); }
+  std::vector<std::array<float, 2>> texcoords(int accessor) { return values<2>(accessor, AccessorUse::texcoord); }
+  std::vector<std::array<float, 4>> tangents(int accessor) { return values<4>(accessor, AccessorUse::tangent); }
+  /// Of three or four components; the fourth is 1 where there is none.
+  std::vector<std::array<float, 4>> colors(int accessor);
 
   /// Vertex indices, each below `vertex_count`.
   std::vector<std::uint32_t> indices(int accessor, std::uint64_t vertex_count);
@@ -44,8 +62,6 @@ class AccessorReader {
                const std::string& label) const;
   void spend(std::uint64_t elements, std::size_t bytes_each, bool backed, const std::string& label);
   template <std::size_t N>
-  std::vector<std::array<float, N>> decode(int accessor, AccessorUse use, int type);
-  template <std::size_t N>
   void apply_sparse(const tinygltf::Accessor& accessor, const Encoding& encoding, const std::string& label,
                     std::vector<std::array<float, N>>& out) const;
 
@@ -54,5 +70,8 @@ class AccessorReader {
   std::uint64_t zeros_left_;
   bool quantized_;
 };
+
+/// The bytes of a buffer view, such as an image's. Throws LoadError.
+std::vector<unsigned char> view_bytes(const tinygltf::Model& model, int view, const std::string& label);
 
 }  // namespace umbrix::io::detail

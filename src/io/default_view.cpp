@@ -126,19 +126,23 @@ Camera framing_camera(const SceneFile& scene) {
   return camera;
 }
 
-Light default_light(const Camera& camera) {
-  Light light;
-  light.name = "default";
-  light.type = LightType::directional;
-  light.intensity = static_cast<float>(kPi);
+std::vector<Light> default_lights(const SceneFile& scene, const Camera& camera) {
+  // Where both shine straight on, they make a white surface about as bright as pi lux.
+  constexpr double kOfSun = 0.75, kOfLamp = 0.5;
+  Light sun, lamp;
+  sun.name = "default sun";
+  sun.type = LightType::directional;
+  sun.intensity = static_cast<float>(kOfSun * kPi);
   // In the camera's frame: forward, to the right, down.
   const glm::dvec3 local = glm::normalize(glm::dvec3(0.5, -0.7, -1));
   for (std::size_t r = 0; r < 3; ++r) {
     const auto& row = camera.to_world[r];
-    light.direction[r] = row[0] * local.x + row[1] * local.y + row[2] * local.z;
-    light.position[r] = row[3];
+    sun.direction[r] = row[0] * local.x + row[1] * local.y + row[2] * local.z;
+    lamp.position[r] = row[3];
   }
-  return light;
+  lamp.name = "default lamp";
+  lamp.intensity = static_cast<float>(kOfLamp) * default_intensity(scene, lamp.position);
+  return {sun, lamp};
 }
 
 std::vector<Light> emissive_lights(const SceneFile& scene) {

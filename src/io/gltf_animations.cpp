@@ -1,99 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Animated cameras (glTF 2.0, section 3.11 and appendix C). Only what moves a camera is read and checked.
+// Animations (glTF 2.0, section 3.11 and appendix C). Only what moves something that is shown is read and checked.
 
 #include "io/gltf_animations.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <limits>
-#include <optional>
+#include <set>
 
-#include "io/camera_motion.h"
-#include "io/key_track.h"
 #include "io/load_error.h"
-#include "io/node_transform.h"
 
 namespace umbrix::io::detail {
-
-/// A node that one animation moves.
-struct MovingNode {
-  std::string label;
-  Pose rest;
-  std::optional<KeyTrack<glm::dvec3>> translation, scale;
-  std::optional<KeyTrack<glm::dquat>> rotation;
-};
-
 namespace {
 
-// All keys of a file that are read: days of a camera with a key for each frame, and no more than a small file costs.
-constexpr std::uint64_t kMostKeyBytes = 1u << 25;
-// Cameras below each other share nodes that move, but each lists its way; a small file could list much.
-constexpr std::size_t kMostPathNodes = 1u << 20;
+// All keys of a file that are read: hours of a character with a key for each frame, and no more than a large mesh.
+constexpr std::uint64_t kMostKeyBytes = 1u << 28;
 
 bool moves_nodes(const std::string& path) { return path == "translation" || path == "rotation" || path == "scale"; }
 
-// Keys are at floats. A frame's time, rounded as an exporter would have, is that of its key, so that a camera that
-// jumps at a frame has jumped in that frame and not in the next.
-double at_key(const std::vector<double>& times, double seconds) {
-  const double rounded = static_cast<float>(seconds);
-  return std::binary_search(times.begin(), times.end(), rounded) ? rounded : seconds;
+bool is_read(const tinygltf::AnimationChannel& channel) {
+  return channel.target_node >= 0 && (moves_nodes(channel.target_path) || channel.target_path == "weights");
 }
 
-template <class V>
-void set(V& value, const std::optional<KeyTrack<V>>& track, double seconds) {
-  if (track) value = track->at(at_key(track->times, seconds));
+std::string label_of_animation(const tinygltf::Model& model, std::size_t number) {
+  return label_of("animations", number, model.animations[number].name);
 }
-
-glm::dmat4 matrix_at(const MovingNode& node, double seconds) {
-  Pose pose = node.rest;
-  set(pose.translation, node.translation, seconds);
-  set(pose.rotation, node.rotation, seconds);
-  set(pose.scale, node.scale, seconds);
-  return to_matrix(pose, node.label);
-}
-
-template <class V>
-void widen(std::array<double, 2>& span, const std::optional<KeyTrack<V>>& track) {
-  if (!track) return;
-  span = {std::min(span[0], track->times.front()), std::max(span[1], track->times.back())};
-}
-
-// A node on the way to a camera.
-struct PathNode {
-  glm::dmat4 rest = glm::dmat4(1);
-  std::shared_ptr<const MovingNode> moving;  // null: stays at rest
-};
-
-class NodeMotion final : public CameraMotion {
- public:
-  NodeMotion(std::vector<PathNode> path, std::string label) : path_(std::move(path)), label_(std::move(label)) {}
-
-  // Multiplied in the order of the walk at rest, so that a node that is moved to its place at rest changes no bit.
-  void move(const Moment& moment, Camera& camera) const override {
-    glm::dmat4 to_world(1);
-    for (const PathNode& node : path_) {
-      to_world = to_world * (node.moving ? matrix_at(*node.moving, moment.seconds) : node.rest);
-    }
-    if (!is_finite(to_world)) bad_input("{}: the transform is not finite", label_);
-    camera.to_world = camera_frame(to_world, label_);
-  }
-
-  std::array<double, 2> span() const override {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    std::array<double, 2> span = {kInfinity, -kInfinity};
-    for (const PathNode& node : path_) {
-      if (!node.moving) continue;
-      widen(span, node.moving->translation);
-      widen(span, node.moving->rotation);
-      widen(span, node.moving->scale);
-    }
-    return span;
-  }
-
- private:
-  std::vector<PathNode> path_;
-  std::string label_;
-};
 
 Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler, const std::string& label) {
   if (sampler.interpolation == "LINEAR") return Interpolation::linear;
@@ -102,39 +33,9 @@ Interpolation interpolation_of(const tinygltf::AnimationSampler& sampler, const 
   bad_input("{}: interpolation '{}' is none of LINEAR, STEP, CUBICSPLINE", label, printable(sampler.interpolation, 32));
 }
 
-std::vector<double> checked_times(const std::vector<float>& seconds, const std::string& label) {
-  if (seconds.empty()) bad_input("{}: has no keys", label);
-  std::vector<double> times;
-  for (const float time : seconds) {
-    if (!std::isfinite(time)) bad_input("{}: the time of key {} is not finite", label, times.size());
-    if (!times.empty() && !(time > times.back())) {
-      bad_input("{}: the time of key {} is {}, must be above the one before, {}", label, times.size(), time,
-                times.back());
-    }
-    times.push_back(time);
-  }
-  return times;
-}
-
+double converted(const std::array<float, 1>& v) { return v[0]; }
 glm::dvec3 converted(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 glm::dquat converted(const std::array<float, 4>& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }
-
-template <class V, std::size_t N>
-KeyTrack<V> make_track(Interpolation interpolation, std::vector<double> times,
-                       const std::vector<std::array<float, N>>& values, const std::string& label) {
-  const std::size_t wanted = times.size() * (interpolation == Interpolation::cubic_spline ? 3 : 1);
-  if (values.size() != wanted) {
-    bad_input("{}: {} keys need {} output values, there are {}", label, times.size(), wanted, values.size());
-  }
-  KeyTrack<V> track{interpolation, std::move(times), {}};
-  for (const std::array<float, N>& value : values) {
-    for (const float number : value) {
-      if (!std::isfinite(number)) bad_input("{}: output value {} is not finite", label, track.values.size());
-    }
-    track.values.push_back(converted(value));
-  }
-  return track;
-}
 
 // Between two keys an arc needs unit length; a spline is made so afterwards (glTF 2.0, appendix C.4).
 void normalize_rotations(KeyTrack<glm::dquat>& track, const std::string& label) {
@@ -146,135 +47,157 @@ void normalize_rotations(KeyTrack<glm::dquat>& track, const std::string& label) 
   }
 }
 
+// The number of the animation that a user names.
+std::size_t find_animation(const tinygltf::Model& model, const std::string& wanted) {
+  std::string names;
+  for (std::size_t i = 0; i < model.animations.size(); ++i) {
+    if (model.animations[i].name == wanted) return i;
+    if (i < 16) names += fmt::format("{}'{}'", names.empty() ? "" : ", ", printable(model.animations[i].name, 64));
+  }
+  std::size_t number = 0;
+  const char* end = wanted.data() + wanted.size();
+  const auto [stop, error] = std::from_chars(wanted.data(), end, number);
+  if (error == std::errc() && stop == end && number < model.animations.size()) return number;
+  throw LoadError{StatusCode::invalid_argument,
+                  fmt::format("there is no animation '{}'; {}", printable(wanted, 64),
+                              names.empty() ? "the file has none" : "the file has " + names)};
+}
+
+std::uint64_t key_byte_limit(const LoadLimits& limits) {
+  return limits.decoded_bytes > 0 ? std::min(limits.decoded_bytes, kMostKeyBytes) : kMostKeyBytes;
+}
+
 }  // namespace
 
-CameraAnimations::CameraAnimations(Conversion& conversion, const std::vector<int>& parent)
+Animations::Animations(Conversion& conversion, const std::string& wanted)
     : c_(conversion),
-      parent_(parent),
-      reader_(conversion.model, kMostKeyBytes),
-      cargo_(conversion.model.nodes.size(), 0) {
-  std::size_t number = 0;
-  for (const tinygltf::Animation& animation : c_.model.animations) {
-    for (const tinygltf::AnimationChannel& channel : animation.channels) {
-      if (channel.target_node < 0 || !moves_nodes(channel.target_path)) continue;
-      std::vector<std::size_t>& list = animations_of_[static_cast<std::size_t>(channel.target_node)];
-      if (list.empty() || list.back() != number) list.push_back(number);
+      reader_(conversion.model, key_byte_limit(conversion.limits)),
+      played_(conversion.model.animations.size(), 0) {
+  choose(wanted);
+}
+
+void Animations::choose(const std::string& wanted) {
+  if (!wanted.empty()) {
+    played_[find_animation(c_.model, wanted)] = 1;
+    return;
+  }
+  std::set<std::pair<int, std::string>> moved;
+  for (std::size_t a = 0; a < played_.size(); ++a) {
+    const std::vector<Channel>& channels = c_.model.animations[a].channels;
+    const auto target = [](const Channel& channel) { return std::pair(channel.target_node, channel.target_path); };
+    played_[a] = std::none_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+      return is_read(channel) && moved.count(target(channel)) > 0;
+    });
+    if (!played_[a]) continue;
+    for (const Channel& channel : channels) {
+      if (is_read(channel)) moved.insert(target(channel));
     }
-    ++number;
   }
 }
 
-void CameraAnimations::carry(std::size_t node, Cargo cargo) {
-  for (auto n = static_cast<int>(node); n >= 0; n = parent_[static_cast<std::size_t>(n)]) {
-    unsigned char& all = cargo_[static_cast<std::size_t>(n)];
-    if (all & cargo) return;
-    all = static_cast<unsigned char>(all | cargo);
+void Animations::read(const std::vector<char>& matters) {
+  for (std::size_t a = 0; a < played_.size(); ++a) {
+    const auto note = [&](const char* kind) { c_.ignored.add(kind, label_of_animation(c_.model, a)); };
+    if (!played_[a]) {
+      note("animations that are not played (an earlier one moves the same nodes, or another was chosen)");
+      continue;
+    }
+    for (const Channel& channel : c_.model.animations[a].channels) {
+      if (!is_read(channel)) {
+        note("animated properties of other kinds");
+      } else if (!matters[static_cast<std::size_t>(channel.target_node)]) {
+        note("animations of nodes that show nothing");
+      } else if (channel.target_path == "weights" &&
+                 morph_targets(static_cast<std::size_t>(channel.target_node)) == 0) {
+        note("animated weights of meshes without morph targets");
+      } else {
+        read_channel(a, channel);
+      }
+    }
   }
 }
 
-std::vector<std::size_t> CameraAnimations::path_to(std::size_t node) const {
-  std::vector<std::size_t> path;
-  for (auto n = static_cast<int>(node); n >= 0; n = parent_[static_cast<std::size_t>(n)]) {
-    path.push_back(static_cast<std::size_t>(n));
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
+std::shared_ptr<const NodeTracks> Animations::tracks(std::size_t node) const {
+  const auto found = tracks_.find(node);
+  return found == tracks_.end() ? nullptr : found->second;
 }
 
-int CameraAnimations::first_animation(const std::vector<std::size_t>& path) const {
-  int first = -1;
-  for (const std::size_t node : path) {
-    const auto found = animations_of_.find(node);
-    if (found == animations_of_.end()) continue;
-    const auto number = static_cast<int>(found->second.front());
-    if (first < 0 || number < first) first = number;
-  }
-  return first;
+std::size_t Animations::morph_targets(std::size_t node) const {
+  const int mesh = c_.model.nodes[node].mesh;
+  if (mesh < 0) return 0;
+  const auto& primitives = c_.model.meshes[static_cast<std::size_t>(mesh)].primitives;
+  return primitives.empty() ? 0 : primitives.front().targets.size();
 }
 
-std::shared_ptr<const CameraMotion> CameraAnimations::motion(std::size_t node) {
-  carry(node, kCamera);
-  if (animations_of_.empty()) return nullptr;
-  const std::vector<std::size_t> path = path_to(node);
-  const int animation = first_animation(path);
-  if (animation < 0) return nullptr;
-  path_nodes_ += path.size();
-  if (path_nodes_ > kMostPathNodes) over_limit("more than {} nodes lead to animated cameras", kMostPathNodes);
-  const auto label_at = [&](std::size_t n) { return label_of("nodes", n, c_.model.nodes[n].name); };
-  std::vector<PathNode> nodes;
-  for (const std::size_t n : path) {
-    PathNode next;
-    next.moving = moving(static_cast<std::size_t>(animation), n);
-    if (!next.moving) next.rest = local_transform(c_.model.nodes[n], label_at(n));
-    nodes.push_back(std::move(next));
-  }
-  return std::make_shared<NodeMotion>(std::move(nodes), label_at(node));
-}
-
-// Null if the animation leaves the node at rest. Cameras that share nodes share what was read of them.
-std::shared_ptr<const MovingNode> CameraAnimations::moving(std::size_t number, std::size_t node) {
-  const auto animated = animations_of_.find(node);
-  if (animated == animations_of_.end()) return nullptr;
-  const std::vector<std::size_t>& list = animated->second;
-  if (!std::binary_search(list.begin(), list.end(), number)) return nullptr;
-  std::shared_ptr<const MovingNode>& known = moving_[{number, node}];
+KeyTimes Animations::times(int accessor, const std::string& label) {
+  KeyTimes& known = times_[accessor];
   if (known) return known;
-  const tinygltf::Node& in = c_.model.nodes[node];
-  const auto made = std::make_shared<MovingNode>();
-  made->label = label_of("nodes", node, in.name);
-  if (!in.matrix.empty()) bad_input("{}: is animated, but has a matrix", made->label);
-  made->rest = pose_of(in);
-  const tinygltf::Animation& animation = c_.model.animations[number];
-  const std::string label = label_of("animations", number, animation.name);
-  for (const tinygltf::AnimationChannel& channel : animation.channels) {
-    if (channel.target_node == static_cast<int>(node)) read_channel(animation, channel, label, *made);
+  std::vector<double> out;
+  for (const auto& [time] : reader_.values<1>(accessor, AccessorUse::key)) {
+    if (!std::isfinite(time)) bad_input("{}: the time of key {} is not finite", label, out.size());
+    if (!out.empty() && !(time > out.back())) {
+      bad_input("{}: the time of key {} is {}, must be above the one before, {}", label, out.size(), time, out.back());
+    }
+    out.push_back(time);
   }
-  known = made;
-  return known;
+  if (out.empty()) bad_input("{}: has no keys", label);
+  return known = std::make_shared<std::vector<double>>(std::move(out));
 }
 
-void CameraAnimations::read_channel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel,
-                                    const std::string& label, MovingNode& node) {
-  if (!moves_nodes(channel.target_path)) return;
+template <class V, std::size_t N>
+KeyTrack<V> Animations::track(std::size_t number, const Channel& channel, std::size_t count, AccessorUse use) {
+  const tinygltf::Animation& animation = c_.model.animations[number];
+  const std::string label = label_of_animation(c_.model, number);
   if (channel.sampler < 0 || static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
     bad_input("{}: sampler {} does not exist", label, channel.sampler);
   }
   const tinygltf::AnimationSampler& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
   const std::string where = fmt::format("{}.samplers[{}]", label, channel.sampler);
-  const Interpolation interpolation = interpolation_of(sampler, where);
-  std::vector<double> times = checked_times(reader_.times(sampler.input), where);
-  if (channel.target_path == "rotation") {
-    if (node.rotation) bad_input("{}: the rotation of {} is animated twice", label, node.label);
-    node.rotation = make_track<glm::dquat>(interpolation, std::move(times), reader_.rotations(sampler.output), where);
-    normalize_rotations(*node.rotation, where);
-    return;
+  KeyTrack<V> track{interpolation_of(sampler, where), times(sampler.input, where), {}, count};
+  const std::vector<std::array<float, N>> values = reader_.values<N>(sampler.output, use);
+  const std::size_t rows = track.times->size() * (track.interpolation == Interpolation::cubic_spline ? 3 : 1);
+  if (values.size() / count != rows || values.size() % count != 0) {
+    bad_input("{}: {} keys need {} output values, there are {}", where, track.times->size(), rows * count,
+              values.size());
   }
-  auto& track = channel.target_path == "scale" ? node.scale : node.translation;
-  if (track) bad_input("{}: the {} of {} is animated twice", label, channel.target_path, node.label);
-  track =
-      make_track<glm::dvec3>(interpolation, std::move(times), reader_.vectors(sampler.output, AccessorUse::key), where);
+  track.values.reserve(values.size());
+  for (const std::array<float, N>& value : values) {
+    for (const float component : value) {
+      if (!std::isfinite(component)) bad_input("{}: output value {} is not finite", where, track.values.size());
+    }
+    track.values.push_back(converted(value));
+  }
+  if constexpr (N == 4) normalize_rotations(track, where);
+  return track;
 }
 
-void CameraAnimations::note_ignored() {
-  std::size_t number = 0;
-  for (const tinygltf::Animation& animation : c_.model.animations) {
-    for (const tinygltf::AnimationChannel& channel : animation.channels) note_channel(number, channel);
-    ++number;
+void Animations::read_channel(std::size_t number, const Channel& channel) {
+  const auto target = static_cast<std::size_t>(channel.target_node);
+  const tinygltf::Node& in = c_.model.nodes[target];
+  std::shared_ptr<NodeTracks>& known = tracks_[target];
+  if (!known) {
+    known = std::make_shared<NodeTracks>();
+    known->label = label_of("nodes", target, in.name);
+    known->rest = pose_of(in);
   }
-}
-
-void CameraAnimations::note_channel(std::size_t number, const tinygltf::AnimationChannel& channel) {
-  const auto note = [&](const char* kind) {
-    c_.ignored.add(kind, label_of("animations", number, c_.model.animations[number].name));
+  NodeTracks& node = *known;
+  const auto set = [&](auto& track, auto read) {
+    if (track) {
+      bad_input("{}: the {} of {} is animated twice", label_of_animation(c_.model, number), channel.target_path,
+                node.label);
+    }
+    track = read();
   };
-  if (channel.target_path == "weights") return note("animated morph targets (the meshes' own shape is used)");
-  if (channel.target_node < 0 || !moves_nodes(channel.target_path)) return note("animated properties of other kinds");
-  const auto node = static_cast<std::size_t>(channel.target_node);
-  const unsigned char cargo = cargo_[node];
-  if (cargo & kMesh) note("animations of meshes (they stay at rest)");
-  if (cargo & kLight) note("animations of lights (they stay at rest)");
-  if (cargo & kCamera && moving_.count({number, node}) == 0) note("animations of a camera after its first");
-  if (cargo == 0) note("animations of nodes that show nothing");
+  if (channel.target_path == "weights") {
+    const std::size_t count = morph_targets(target);
+    return set(node.weights, [&] { return track<double, 1>(number, channel, count, AccessorUse::morph_weight); });
+  }
+  if (!in.matrix.empty()) bad_input("{}: is animated, but has a matrix", node.label);
+  if (channel.target_path == "rotation") {
+    return set(node.rotation, [&] { return track<glm::dquat, 4>(number, channel, 1, AccessorUse::rotation); });
+  }
+  set(channel.target_path == "scale" ? node.scale : node.translation,
+      [&] { return track<glm::dvec3, 3>(number, channel, 1, AccessorUse::key); });
 }
 
 }  // namespace umbrix::io::detail

@@ -20,11 +20,12 @@ float checked(double value, double low, double high, const char* what, const std
 
 constexpr double kLargest = std::numeric_limits<float>::max();
 
-float emissive_strength(const tinygltf::Material& material, const std::string& label) {
-  const auto extension = material.extensions.find("KHR_materials_emissive_strength");
-  if (extension == material.extensions.end() || !extension->second.Has("emissiveStrength")) return 1;
-  const tinygltf::Value& value = extension->second.Get("emissiveStrength");
-  return checked(value.GetNumberAsDouble(), 0, kLargest, "emissiveStrength", label);
+// A number of an extension of the material, or what it is without one.
+float extension_number(const tinygltf::Material& material, const char* extension, const char* member, double otherwise,
+                       double low, double high, const std::string& label) {
+  const auto found = material.extensions.find(extension);
+  const bool there = found != material.extensions.end() && found->second.Has(member);
+  return checked(there ? found->second.Get(member).GetNumberAsDouble() : otherwise, low, high, member, label);
 }
 
 AlphaMode alpha_mode(const std::string& name, const std::string& label) {
@@ -34,7 +35,66 @@ AlphaMode alpha_mode(const std::string& name, const std::string& label) {
   bad_input("{}: alphaMode '{}' is none of OPAQUE, MASK, BLEND", label, printable(name, 32));
 }
 
-Material convert_material(const tinygltf::Material& in, const std::string& label) {
+void convert_emission(const tinygltf::Material& in, const std::string& label, Material& out) {
+  if (in.emissiveFactor.size() != 3) return;
+  const float strength =
+      extension_number(in, "KHR_materials_emissive_strength", "emissiveStrength", 1, 0, kLargest, label);
+  for (std::size_t c = 0; c < 3; ++c) {
+    // Old exporters put strengths above one here.
+    const float factor = checked(in.emissiveFactor[c], 0, kLargest, "emissiveFactor", label);
+    out.emission[c] = checked(static_cast<double>(factor) * strength, 0, kLargest, "emission", label);
+  }
+}
+
+// A texture of an extension, whose members tinygltf leaves as they are.
+TextureUse extension_texture(Conversion& conversion, const tinygltf::Value& extension, const char* member,
+                             const std::string& label) {
+  if (!extension.Has(member)) return {};
+  const tinygltf::Value& info = extension.Get(member);
+  tinygltf::ExtensionMap extensions;
+  if (info.Has("extensions") && info.Get("extensions").Has("KHR_texture_transform")) {
+    extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
+  }
+  const int texcoord = info.Has("texCoord") ? info.Get("texCoord").GetNumberAsInt() : 0;
+  return convert_texture_use(conversion, info.Get("index").GetNumberAsInt(), texcoord, extensions, label);
+}
+
+void convert_specular(Conversion& conversion, const tinygltf::Material& in, const std::string& label, Material& out) {
+  out.ior = extension_number(in, "KHR_materials_ior", "ior", 1.5, 0, kLargest, label);
+  if (out.ior > 0 && out.ior < 1) bad_input("{}: ior is {}, must be 0 or from 1 up", label, out.ior);
+  const auto found = in.extensions.find("KHR_materials_specular");
+  if (found == in.extensions.end()) return;
+  const tinygltf::Value& specular = found->second;
+  out.specular = extension_number(in, "KHR_materials_specular", "specularFactor", 1, 0, 1, label);
+  if (specular.Has("specularColorFactor")) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const tinygltf::Value& value = specular.Get("specularColorFactor").Get(static_cast<int>(c));
+      out.specular_color[c] = checked(value.GetNumberAsDouble(), 0, kLargest, "specularColorFactor", label);
+    }
+  }
+  out.specular_texture = extension_texture(conversion, specular, "specularTexture", label);
+  out.specular_color_texture = extension_texture(conversion, specular, "specularColorTexture", label);
+}
+
+void convert_texture_uses(Conversion& conversion, const tinygltf::Material& in, const std::string& label,
+                          Material& out) {
+  const auto use = [&](const auto& info) {
+    return convert_texture_use(conversion, info.index, info.texCoord, info.extensions, label);
+  };
+  out.base_color_texture = use(in.pbrMetallicRoughness.baseColorTexture);
+  if (out.unlit) return;
+  out.metallic_roughness_texture = use(in.pbrMetallicRoughness.metallicRoughnessTexture);
+  out.normal_texture = use(in.normalTexture);
+  if (out.normal_texture.texture >= 0) {
+    out.normal_scale = checked(in.normalTexture.scale, -kLargest, kLargest, "scale of normalTexture", label);
+  }
+  if (out.emission != Float3{0, 0, 0}) out.emissive_texture = use(in.emissiveTexture);
+  if (in.occlusionTexture.index >= 0) {
+    conversion.ignored.add("occlusion textures (rays find what is occluded)", label);
+  }
+}
+
+Material convert_material(Conversion& conversion, const tinygltf::Material& in, const std::string& label) {
   const tinygltf::PbrMetallicRoughness& pbr = in.pbrMetallicRoughness;
   Material out;
   out.name = in.name;
@@ -46,18 +106,15 @@ Material convert_material(const tinygltf::Material& in, const std::string& label
   }
   out.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor", label);
   out.roughness = checked(pbr.roughnessFactor, 0, 1, "roughnessFactor", label);
-  if (in.emissiveFactor.size() == 3) {
-    const float strength = emissive_strength(in, label);
-    for (std::size_t c = 0; c < 3; ++c) {
-      // Old exporters put strengths above one here.
-      const float factor = checked(in.emissiveFactor[c], 0, kLargest, "emissiveFactor", label);
-      out.emission[c] = checked(static_cast<double>(factor) * strength, 0, kLargest, "emission", label);
-    }
-  }
   out.double_sided = in.doubleSided;
   out.alpha_mode = alpha_mode(in.alphaMode, label);
   out.alpha_cutoff = checked(in.alphaCutoff, 0, kLargest, "alphaCutoff", label);
-  out.base_color_texture = pbr.baseColorTexture.index;
+  out.unlit = in.extensions.count("KHR_materials_unlit") > 0;
+  if (!out.unlit) {
+    convert_emission(in, label, out);
+    convert_specular(conversion, in, label, out);
+  }
+  convert_texture_uses(conversion, in, label, out);
   return out;
 }
 
@@ -66,12 +123,8 @@ Material convert_material(const tinygltf::Material& in, const std::string& label
 void convert_materials(Conversion& conversion) {
   std::size_t number = 0;
   for (const tinygltf::Material& material : conversion.model.materials) {
-    const std::string label = label_of("materials", number, material.name);
-    conversion.scene.materials.push_back(convert_material(material, label));
-    if (material.emissiveTexture.index >= 0 && conversion.scene.materials.back().emission != Float3{0, 0, 0}) {
-      conversion.ignored.add("emissive textures (the whole surface shines with the factor)", label);
-    }
-    ++number;
+    const std::string label = label_of("materials", number++, material.name);
+    conversion.scene.materials.push_back(convert_material(conversion, material, label));
   }
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Primitives to triangle lists (glTF 2.0, section 3.7.2).
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
 #include "io/accessor.h"
+#include "io/gltf_compression.h"
 #include "io/gltf_convert.h"
+#include "io/gltf_shapes.h"
 #include "io/load_error.h"
 
 namespace umbrix::io::detail {
@@ -40,28 +40,47 @@ Triangle triangle(int mode, const Corners& corner, std::uint64_t i) {
   return {corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)};
 }
 
+// Keeps what `place` has a place for, `each` elements a vertex.
+template <class T>
+void keep_used(std::vector<T>& values, const std::vector<std::uint32_t>& place, std::size_t kept,
+               std::size_t each = 1) {
+  if (values.empty()) return;
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == kUnused) continue;
+    for (std::size_t i = 0; i < each; ++i) values[place[v] * each + i] = values[v * each + i];
+  }
+  values.resize(kept * each);
+  values.shrink_to_fit();
+}
+
 // Keeps only the vertices that are used, in their order. Exporters like to cut one big vertex array into many
 // primitives; each would carry it whole.
-void drop_unused_vertices(Mesh& mesh) {
+void drop_unused_vertices(Mesh& mesh, Shape* shape) {
   std::vector<std::uint32_t> place(mesh.positions.size(), kUnused);
   for (const Triangle& t : mesh.triangles) {
     for (const std::uint32_t v : t) place[v] = 0;
   }
   std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < place.size(); ++v) {
-    if (place[v] == kUnused) continue;
-    mesh.positions[kept] = mesh.positions[v];
-    if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[v];
-    if (!mesh.texcoords.empty()) mesh.texcoords[kept] = mesh.texcoords[v];
-    place[v] = kept++;
+  for (std::uint32_t& v : place) {
+    if (v != kUnused) v = kept++;
   }
-  mesh.positions.resize(kept);
-  mesh.positions.shrink_to_fit();
-  if (!mesh.normals.empty()) mesh.normals.resize(kept), mesh.normals.shrink_to_fit();
-  if (!mesh.texcoords.empty()) mesh.texcoords.resize(kept), mesh.texcoords.shrink_to_fit();
+  keep_used(mesh.positions, place, kept);
+  keep_used(mesh.normals, place, kept);
+  for (auto& texcoords : mesh.texcoord_sets) keep_used(texcoords, place, kept);
+  keep_used(mesh.colors, place, kept);
+  keep_used(mesh.tangents, place, kept);
   for (Triangle& t : mesh.triangles) {
     for (std::uint32_t& v : t) v = place[v];
   }
+  if (!shape) return;
+  keep_used(shape->positions, place, kept);
+  keep_used(shape->normals, place, kept);
+  for (Shape::Target& target : shape->targets) {
+    keep_used(target.positions, place, kept);
+    keep_used(target.normals, place, kept);
+  }
+  keep_used(shape->joints, place, kept, shape->influences);
+  keep_used(shape->weights, place, kept, shape->influences);
 }
 
 // An attribute's accessor, or -1. Refuses one of another length than the positions.
@@ -75,24 +94,23 @@ int attribute(const tinygltf::Primitive& primitive, const char* name, const Acce
   return found->second;
 }
 
-// What a small file can ask for by naming one accessor in many primitives has to end before the machine's memory does.
-std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
-  if (limits.decoded_bytes > 0) return limits.decoded_bytes;
-  const long pages = ::sysconf(_SC_PHYS_PAGES), page_bytes = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_bytes <= 0) return std::numeric_limits<std::uint64_t>::max();
-  return static_cast<std::uint64_t>(pages) / 4 * 3 * static_cast<std::uint64_t>(page_bytes);
-}
-
 void note_ignored(const tinygltf::Primitive& primitive, const std::string& label, Remarks& ignored) {
-  if (!primitive.targets.empty()) ignored.add("morph targets", label);
-  if (primitive.attributes.count("COLOR_0") > 0) ignored.add("vertex colours", label);
+  for (const auto& target : primitive.targets) {
+    const bool more = std::any_of(target.begin(), target.end(), [](const auto& attribute) {
+      return attribute.first != "POSITION" && attribute.first != "NORMAL" && attribute.first != "TANGENT";
+    });
+    if (more) ignored.add("morph targets of other things than positions and normals", label);
+  }
+  for (const char* more : {"COLOR_1", "TEXCOORD_2"}) {
+    if (primitive.attributes.count(more) > 0) ignored.add(fmt::format("vertex attribute {}", more), label);
+  }
 }
 
 class MeshConverter {
  public:
   explicit MeshConverter(Conversion& conversion)
       : conversion_(conversion),
-        reader_(conversion.model, decoded_byte_limit(conversion.limits)),
+        reader_(conversion.model, conversion.limits.decoded_bytes),
         triangles_left_(conversion.limits.triangles) {}
 
   void convert(const tinygltf::Primitive& primitive, const std::string& name, const std::string& label) {
@@ -101,12 +119,12 @@ class MeshConverter {
     if (mode < TINYGLTF_MODE_TRIANGLES) return conversion_.ignored.add("primitives of points or lines", label);
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) return conversion_.ignored.add("primitives without POSITION", label);
-    if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 &&
+
+    if (primitive.extensions.count(kDraco) > 0 && !kReadsDraco &&
         conversion_.model.accessors[static_cast<std::size_t>(position->second)].bufferView < 0) {
       bad_input(
-          "{}: is compressed with KHR_draco_mesh_compression, which is not supported; gltf-transform can "
-          "decompress the file",
-          label);
+          "{}: is compressed with {}, which is not supported by this build; gltf-transform can decompress the file",
+          label, kDraco);
     }
 
     const std::uint64_t vertex_count = reader_.count(position->second);
@@ -127,16 +145,15 @@ class MeshConverter {
     Mesh mesh;
     mesh.name = name;
     mesh.positions = reader_.vectors(position->second, AccessorUse::position);
-    const int normals = attribute(primitive, "NORMAL", reader_, vertex_count, label);
-    if (normals >= 0) mesh.normals = reader_.vectors(normals, AccessorUse::normal);
-    const int texcoords = attribute(primitive, "TEXCOORD_0", reader_, vertex_count, label);
-    if (texcoords >= 0) mesh.texcoords = reader_.texcoords(texcoords);
+    mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material();
+    read_attributes(primitive, vertex_count, label, mesh);
     mesh.triangles.resize(count);
     for (std::uint64_t i = 0; i < count; ++i) mesh.triangles[i] = triangle(mode, corners, i);
-    if (vertex_count > corners.count) drop_unused_vertices(mesh);
-    mesh.material = primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material) : default_material();
+    const std::shared_ptr<Shape> shape = read_shape(primitive, mesh, reader_, label);
+    if (vertex_count > corners.count) drop_unused_vertices(mesh, shape.get());
     note_ignored(primitive, label, conversion_.ignored);
     conversion_.scene.meshes.push_back(std::move(mesh));
+    conversion_.shapes.push_back(shape);
   }
 
   // glTF's material for primitives that name none; made when first needed.
@@ -150,6 +167,29 @@ class MeshConverter {
   }
 
  private:
+  // What shading wants at the corners; of what only textures want, what the material's textures do.
+  void read_attributes(const tinygltf::Primitive& primitive, std::uint64_t vertex_count, const std::string& label,
+                       Mesh& mesh) {
+    const Material& material = conversion_.scene.materials[mesh.material];
+    const auto find = [&](const char* name) { return attribute(primitive, name, reader_, vertex_count, label); };
+    if (const int normals = find("NORMAL"); normals >= 0) mesh.normals = reader_.vectors(normals, AccessorUse::normal);
+    if (const int colors = find("COLOR_0"); colors >= 0) mesh.colors = reader_.colors(colors);
+    const int tangents = find("TANGENT");
+    if (tangents >= 0 && material.normal_texture.texture >= 0) mesh.tangents = reader_.tangents(tangents);
+    const char* const names[] = {"TEXCOORD_0", "TEXCOORD_1"};
+    for (std::uint32_t set = 0; set < 2; ++set) {
+      const bool wanted = std::any_of(std::begin(kMaterialTextures), std::end(kMaterialTextures), [&](const auto use) {
+        return (material.*use).texture >= 0 && (material.*use).texcoord == set;
+      });
+      const int texcoords = find(names[set]);
+      if (texcoords >= 0 && (wanted || set == 0)) mesh.texcoord_sets[set] = reader_.texcoords(texcoords);
+      if (texcoords < 0 && wanted) {
+        conversion_.warnings.add(fmt::format("textures without {}, which they need; factors only are used", names[set]),
+                                 label);
+      }
+    }
+  }
+
   Conversion& conversion_;
   AccessorReader reader_;
   std::uint64_t triangles_left_;

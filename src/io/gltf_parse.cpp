@@ -9,6 +9,7 @@
 #include <deque>
 #include <optional>
 
+#include "io/gltf_compression.h"
 #include "io/input_file.h"
 #include "io/load_error.h"
 
@@ -21,6 +22,7 @@ struct ExternalBuffer {
   std::string file;
   std::string label;  // for messages
   std::uint64_t bytes = 0;
+  bool placeholder = false;  // stands for one that has no content
 };
 
 // What tinygltf's callbacks share.
@@ -55,15 +57,6 @@ bool has_scheme(std::string_view uri) {
   return colon != std::string_view::npos && colon < uri.find('/');
 }
 
-std::string buffer_path(const std::string& scene_path, const std::string& uri, const std::string& label,
-                        const LoadLimits& limits) {
-  const std::string name = percent_decoded(uri);
-  if (has_scheme(uri)) {
-    bad_input("{}: '{}' is not a relative path; only local files are read", label, printable(name, 128));
-  }
-  return path_beside(scene_path, name, !limits.allow_paths_outside, label, "scene file");
-}
-
 // Lists the buffers kept in files, and refuses what tinygltf would misunderstand.
 BufferSource list_external_buffers(const std::string& scene_path, const GltfDocument& document, const json& root,
                                    const LoadLimits& limits) {
@@ -75,6 +68,11 @@ BufferSource list_external_buffers(const std::string& scene_path, const GltfDocu
     const std::string label = fmt::format("buffers[{}]", number);
     const auto bytes = buffer.at("byteLength").get<std::uint64_t>();
     const std::string uri = buffer.value("uri", std::string());
+    if (is_placeholder(buffer)) {
+      source.waiting.push_back({{}, label, 1, true});
+      ++number;
+      continue;
+    }
     if (bytes == 0) bad_input("{}: byteLength is 0", label);
     if (uri.empty()) {
       if (!document.binary || number != 0) bad_input("{}: 'uri' is missing", label);
@@ -84,7 +82,7 @@ BufferSource list_external_buffers(const std::string& scene_path, const GltfDocu
         bad_input("{}: the data URI '{}...' is of an unknown type", label, printable(uri.substr(0, 40), 40));
       }
     } else {
-      source.waiting.push_back({buffer_path(scene_path, uri, label, limits), label, bytes});
+      source.waiting.push_back({uri_path(scene_path, uri, label, limits), label, bytes});
     }
     ++number;
   }
@@ -96,6 +94,10 @@ bool read_next(BufferSource& source, std::vector<unsigned char>& out) {
   if (source.error || source.waiting.empty()) return false;
   const ExternalBuffer buffer = std::move(source.waiting.front());
   source.waiting.pop_front();
+  if (buffer.placeholder) {
+    out.assign(buffer.bytes, 0);
+    return true;
+  }
   try {
     out = read_file(buffer.file, source.bytes_left);
     if (out.size() < buffer.bytes) bad_input("has {} bytes, the buffer needs {}", out.size(), buffer.bytes);
@@ -137,12 +139,23 @@ tinygltf::FsCallbacks callbacks_for(BufferSource& source) {
   return callbacks;
 }
 
-// Images stay encoded until something samples them.
-bool leave_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
+// Images stay encoded until something samples them. Those of data URIs come here alone, the others stay where they are.
+bool leave_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+                 int size, void*) {
+  if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
   return true;
 }
 
 }  // namespace
+
+std::string uri_path(const std::string& scene_path, const std::string& uri, const std::string& label,
+                     const LoadLimits& limits) {
+  const std::string name = percent_decoded(uri);
+  if (has_scheme(uri)) {
+    bad_input("{}: '{}' is not a relative path; only local files are read", label, printable(name, 128));
+  }
+  return path_beside(scene_path, name, !limits.allow_paths_outside, label, "scene file");
+}
 
 tinygltf::Model parse_gltf(const std::string& path, const GltfDocument& document, const nlohmann::json& root,
                            const LoadLimits& limits) {

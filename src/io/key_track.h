@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <memory>
 #include <vector>
 
 namespace umbrix::io::detail {
@@ -34,6 +35,7 @@ V hermite(const V& a, const V& a_slope, const V& b, const V& b_slope, double u, 
          b_slope * ((uuu - uu) * span);
 }
 
+inline double blend(double a, double b, double u) { return a + (b - a) * u; }
 inline glm::dvec3 blend(const glm::dvec3& a, const glm::dvec3& b, double u) { return a + (b - a) * u; }
 
 /// Along the shorter arc.
@@ -41,23 +43,26 @@ inline glm::dquat blend(const glm::dquat& a, const glm::dquat& b, double u) { re
 
 enum class Interpolation { step, linear, cubic_spline };
 
-/// An animated value, at least one key (glTF 2.0, appendix C). A cubic spline has three values a key: the slope on the
-/// way in, the value, the slope on the way out.
+/// When the keys of a track are: ascending, at least one. Tracks of an animation often share them.
+using KeyTimes = std::shared_ptr<const std::vector<double>>;
+
+/// An animated value, or `count` of them that share their times (glTF 2.0, appendix C): a key has one row of `count`
+/// values, of a cubic spline three: the slopes on the way in, the values, the slopes on the way out.
 template <class V>
 struct KeyTrack {
   Interpolation interpolation = Interpolation::linear;
-  std::vector<double> times;
+  KeyTimes times;
   std::vector<V> values;
+  std::size_t count = 1;
 
-  /// Rotations are not made unit length.
-  V at(double time) const {
-    const KeyPlace place = find_place(times, time);
+  /// Value number i of the row. Rotations are not made unit length.
+  V at(double time, std::size_t i = 0) const {
+    const KeyPlace place = find_place(*times, time);
     const bool cubic = interpolation == Interpolation::cubic_spline;
-    const V& value = values[cubic ? 3 * place.key + 1 : place.key];
-    if (place.u == 0 || interpolation == Interpolation::step) return value;
-    if (!cubic) return blend(value, values[place.key + 1], place.u);
-    const V* next = &values[3 * place.key + 3];
-    return hermite(value, values[3 * place.key + 2], next[1], next[0], place.u, place.span);
+    const V* value = &values[(cubic ? 3 * place.key + 1 : place.key) * count + i];
+    if (place.u == 0 || interpolation == Interpolation::step) return *value;
+    if (!cubic) return blend(*value, value[count], place.u);
+    return hermite(*value, value[count], value[3 * count], value[2 * count], place.u, place.span);
   }
 };
 

@@ -82,4 +82,11 @@ Transform camera_frame(const glm::dmat4& m, const std::string& label) {
   return to_transform(glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(z, 0), m[3]));
 }
 
+void place_light(const glm::dmat4& m, const std::string& label, Light& light) {
+  light.position = {m[3].x, m[3].y, m[3].z};
+  if (!light_type_info(light.type).has(kHasDirection)) return;
+  const glm::dvec3 d = direction(-glm::dvec3(m[2]), "light", label);
+  light.direction = {d.x, d.y, d.z};
+}
+
 }  // namespace umbrix::io::detail

@@ -36,4 +36,7 @@ glm::dvec3 direction(const glm::dvec3& v, const char* what, const std::string& l
 /// A camera's frame without its scale and shear: the view axis stays, "up" is made normal to it.
 Transform camera_frame(const glm::dmat4& m, const std::string& label);
 
+/// Puts a light where a node is; its direction is the node's -z. Throws LoadError if that is zero.
+void place_light(const glm::dmat4& m, const std::string& label, Light& light);
+
 }  // namespace umbrix::io::detail

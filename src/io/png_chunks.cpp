@@ -20,18 +20,19 @@ std::uint64_t big_endian(const unsigned char* bytes) {
 
 }  // namespace
 
-void check_png_chunks(const std::vector<unsigned char>& start, std::uint64_t file_bytes) {
+void check_png_chunks(const std::vector<unsigned char>& start, std::uint64_t file_bytes, bool whole) {
   std::uint64_t at = kSignatureBytes;
   while (at + kHeadBytes <= start.size()) {
     const std::uint64_t length = big_endian(&start[at]);
     const std::string_view type(reinterpret_cast<const char*>(&start[at + 4]), 4);
     if (type == "IEND") return;
-    if (type != "IDAT" && length + kHeadBytes + kChecksumBytes > file_bytes - at)
+    if ((whole || type != "IDAT") && length + kHeadBytes + kChecksumBytes > file_bytes - at)
       bad_input("the PNG file has a chunk of {} bytes at byte {}, and ends before", length, at);
     if ((type == "zTXt" || type == "iTXt") && length > kLongestCompressedText)
       over_limit("the PNG file has a text of {} bytes, the limit is {}", length, kLongestCompressedText);
     at += kHeadBytes + length + kChecksumBytes;
   }
+  if (whole) bad_input("the PNG file ends after {} bytes, before its end is told", file_bytes);
 }
 
 }  // namespace umbrix::io::detail

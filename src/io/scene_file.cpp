@@ -5,11 +5,13 @@
 #include <new>
 #include <stdexcept>
 
+#include "io/gltf_compression.h"
 #include "io/gltf_convert.h"
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
 #include "io/input_file.h"
 #include "io/load_error.h"
+#include "io/memory_share.h"
 
 namespace umbrix::io {
 namespace detail {
@@ -42,32 +44,41 @@ void note_unread(Conversion& c) {
   const auto note = [&](const char* kind, std::size_t count) {
     if (count > 0) c.ignored.add(kind, "", count);
   };
-  note("skins (the meshes' own pose is used)", c.model.skins.size());
-  note("textures (factors only are used)", c.model.textures.size());
   note("scenes other than the default one", c.model.scenes.empty() ? 0 : c.model.scenes.size() - 1);
   for (const std::string& name : c.model.extensionsUsed) {
     if (!is_supported_extension(name)) c.ignored.add("extension " + printable(name, 64), "");
   }
 }
 
-void load(const std::string& path, SceneFile& scene, const LoadLimits& limits) {
+// What a small file can ask for by naming one accessor in many primitives has to end before the machine's memory does.
+std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
+  if (limits.decoded_bytes > 0) return limits.decoded_bytes;
+  return memory_share(3, 4);
+}
+
+void load(const std::string& path, SceneFile& scene, LoadLimits limits, const std::string& animation) {
+  limits.decoded_bytes = decoded_byte_limit(limits);
   const OpenedFiles record(scene.files);
   const tinygltf::Model model = [&] {
-    const GltfDocument document = read_gltf_document(path, limits);
+    GltfDocument document = read_gltf_document(path, limits);
     const nlohmann::json root = parse_json(document.json, limits);
     check_gltf_json(root, limits);
-    return parse_gltf(path, document, root, limits);
+    tinygltf::Model parsed = parse_gltf(path, as_if_plain(std::move(document), root), root, limits);
+    if constexpr (kReadsMeshopt) decode_meshopt(root, parsed, limits.decoded_bytes);
+    if constexpr (kReadsDraco) decode_draco(root, parsed, limits.decoded_bytes);
+    return parsed;
   }();
   scene.path = path;
   scene.generator = model.asset.generator;
   scene.extensions_used = model.extensionsUsed;
-  scene.textures = model.textures.size();
-  scene.animations = model.animations.size();
+  for (const tinygltf::Animation& animation_in : model.animations) scene.animations.push_back(animation_in.name);
 
-  Conversion conversion{model, limits, scene, {}, {}, {}};
+  Conversion conversion{model, limits, scene, {}, {}, {}, {}};
+  convert_textures(conversion);
+  convert_images(conversion);
   convert_materials(conversion);
   convert_meshes(conversion);
-  convert_nodes(conversion);
+  convert_nodes(conversion, animation);
   note_unread(conversion);
   if (scene.instances.empty()) conversion.warnings.add("the scene shows no triangles", "");
   scene.ignored = conversion.ignored.lines();
@@ -83,14 +94,14 @@ std::uint64_t SceneFile::instanced_triangles() const noexcept {
   return count;
 }
 
-Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits) {
+Status load_scene(const std::string& path, SceneFile& out, const LoadLimits& limits, const std::string& animation) {
   out = {};
   const auto failed = [&](StatusCode code, const std::string& what) {
     out = {};
     return Status(code, detail::printable(path) + ": " + what);
   };
   try {
-    detail::load(path, out, limits);
+    detail::load(path, out, limits, animation);
     return {};
   } catch (const detail::LoadError& e) {
     return failed(e.code, e.what);

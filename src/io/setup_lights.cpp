@@ -35,7 +35,7 @@ LightType light_type(const json& object, const std::string& label) {
 
 void refuse_unknown_of_type(const json& object, const LightTypeInfo& type, const std::string& label) {
   if (type.has(kSurrounds))
-    return refuse_unknown(object, {"type", "name", "color", "radiance", "file", "rotation_degrees"}, label);
+    return refuse_unknown(object, {"type", "name", "color", "radiance", "file", "rotation_degrees", "visible"}, label);
   if (type.has(kHasEdges)) {
     return refuse_unknown(
         object,
@@ -138,6 +138,10 @@ void read_environment_light(const json& object, const std::string& label, const 
   if (object.contains("radiance")) read_radiance(object, label, light);
   if (object.contains("rotation_degrees")) {
     light.rotation = radians(setup_number(object.at("rotation_degrees"), -1e6, 1e6, label + ".rotation_degrees"));
+  }
+  if (object.contains("visible")) {
+    if (!object.at("visible").is_boolean()) bad_input("{}.visible: is neither true nor false", label);
+    light.visible = object.at("visible").get<bool>();
   }
   if (!object.contains("file")) return;
   if (!object.at("file").is_string()) bad_input("{}.file: is not a string", label);

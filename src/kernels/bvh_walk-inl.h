@@ -20,44 +20,59 @@ namespace HWY_NAMESPACE {
 
 static_assert(kBvhWidth == 4, "boxes fill Lanes4");
 
-/// Of four boxes, those that a ray crosses, and when it enters them.
+/// Of boxes side by side, those that a ray crosses, and when it enters them.
+template <class Time, std::uint32_t kBoxes>
 struct CrossedBoxes {
-  alignas(16) float t0[kBvhWidth];
+  alignas(64) Time t0[kBoxes];
   std::uint32_t lanes = 0;
 };
 
-HWY_INLINE void cross_boxes(const BvhNode& node, const WalkRay& ray, Interval at, CrossedBoxes& out) {
-  const Lanes4 f;
-  out.lanes = 0;
-  for (std::uint32_t i = 0; i < kBvhWidth; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-    auto t0 = hn::Set(f, at.t0), t1 = hn::Set(f, at.t1);
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const bool down = ray.far_low[axis] != 0;
-      const auto origin = hn::Set(f, ray.origin[axis]), inverse = hn::Set(f, ray.inverse[axis]);
-      const auto entry = hn::Load(f, (down ? node.upper : node.lower)[axis] + i);
-      const auto exit = hn::Load(f, (down ? node.lower : node.upper)[axis] + i);
-      t0 = hn::Max(t0, hn::Mul(hn::Sub(entry, origin), inverse));
-      t1 = hn::Min(t1, hn::Mul(hn::Sub(exit, origin), inverse));
+/// A ray's float times at boxes.
+class BoxTimes {
+ public:
+  using Time = float;
+
+  BoxTimes(const WalkRay& ray, Interval at) : ray_(ray), at_(at) {}
+
+  float start() const { return at_.t0; }
+
+  HWY_INLINE void cross(const BvhNode& node, CrossedBoxes<float, kBvhWidth>& out) const {
+    const Lanes4 f;
+    out.lanes = 0;
+    for (std::uint32_t i = 0; i < kBvhWidth; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto t0 = hn::Set(f, at_.t0), t1 = hn::Set(f, at_.t1);
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const bool down = ray_.far_low[axis] != 0;
+        const auto origin = hn::Set(f, ray_.origin[axis]), inverse = hn::Set(f, ray_.inverse[axis]);
+        const auto entry = hn::Load(f, (down ? node.upper : node.lower)[axis] + i);
+        const auto exit = hn::Load(f, (down ? node.lower : node.upper)[axis] + i);
+        t0 = hn::Max(t0, hn::Mul(hn::Sub(entry, origin), inverse));
+        t1 = hn::Min(t1, hn::Mul(hn::Sub(exit, origin), inverse));
+      }
+      alignas(8) std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(f, hn::Le(t0, t1), bits);
+      out.lanes |= static_cast<std::uint32_t>(bits[0]) << i;
+      hn::Store(t0, f, out.t0 + i);
     }
-    alignas(8) std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(f, hn::Le(t0, t1), bits);
-    out.lanes |= static_cast<std::uint32_t>(bits[0]) << i;
-    hn::Store(t0, f, out.t0 + i);
   }
-}
+
+ private:
+  const WalkRay& ray_;
+  Interval at_;
+};
 
 /// Visits the rows that the ray may meet: rows(triangles, t0) returns true to stop. What starts beyond `limit` is left
-/// out; it is read anew for each.
-template <class Rows, class Counts>
-HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, Interval at, const WalkRay& ray, const float& limit, Rows&& rows,
+/// out; it is read anew for each. `times` tells of a node which boxes the ray crosses, as BoxTimes does.
+template <class Times, class Rows, class Counts>
+HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, const Times& times, const typename Times::Time& limit, Rows&& rows,
                          Counts& counts) {
   struct Pending {
     std::uint32_t child;
-    float t0;
+    typename Times::Time t0;
   };
   Pending stack[(kBvhWidth - 1) * kMaxBvhDepth + 1];
   std::uint32_t pending = 0;
-  Pending here{0, at.t0};
+  Pending here{0, times.start()};
   for (;;) {
     counts.node();
     if ((here.child & BvhNode::kLeaf) != 0) {
@@ -65,8 +80,8 @@ HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, Interval at, const WalkRay& ray
       if (rows(bvh.rows(here.child & ~BvhNode::kLeaf), here.t0)) return true;
     } else {
       const BvhNode& node = bvh.node(here.child);
-      CrossedBoxes crossed;
-      cross_boxes(node, ray, at, crossed);
+      CrossedBoxes<typename Times::Time, kBvhWidth> crossed;
+      times.cross(node, crossed);
       // Onto the stack, the nearest last.
       const std::uint32_t base = pending;
       for (std::uint32_t rest = crossed.lanes; rest != 0; rest &= rest - 1) {
@@ -107,7 +122,7 @@ struct BvhKernel {
       }
       return false;
     };
-    return bvh_walk(*scene.bvh, at, walk_ray, walk_ray.tmax, rows, counts);
+    return bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), walk_ray.tmax, rows, counts);
   }
 
   template <class Counts>
@@ -133,7 +148,7 @@ struct BvhKernel {
       }
       return false;
     };
-    bvh_walk(*scene.bvh, at, walk_ray, limit, rows, counts);
+    bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), limit, rows, counts);
   }
 
  private:

@@ -38,10 +38,14 @@ struct SceneView {
   const TriangleBvh* bvh = nullptr;
 };
 
+class InstanceTree;
+
 /// The inside of a scene, for what is built on it.
 struct SceneAccess {
   /// Null before commit. As it stands until the scene is gone.
   static const SceneView* view(const Scene& scene) noexcept;
+  /// What kernels do not see: to be asked after them (instanced.h). Null if there are none.
+  static const InstanceTree* instances(const Scene& scene) noexcept;
   /// What the default kernel has of a committed scene; null if there was no memory for it.
   static std::shared_ptr<const SideTable> default_side(const Scene& scene) noexcept;
 };

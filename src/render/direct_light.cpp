@@ -19,9 +19,9 @@ void count_unreached(Unreached reason, LightStats& stats) {
   stats.skipped_no_power += reason == Unreached::no_power;
 }
 
-void count_route(RayRoute route, CameraSample& sample, LightStats& stats) {
-  ++sample.routes[index_of(route)];
-  ++stats.routes[index_of(route)];
+/// The share of a way that rays sent by the material may find as well (balance heuristic, Veach 1997, section 9.2).
+double weight_of(const Arrival& arrival, double share, double bsdf_density) {
+  return arrival.density > 0 ? arrival.density / (arrival.density + share * bsdf_density) : 1;
 }
 
 }  // namespace
@@ -30,16 +30,17 @@ void DirectLight::add(const Light& light, std::uint32_t number, const std::vecto
                       TileSamples& tile, LightStats& stats) {
   gather(light, requests, tile, stats);
   const auto start = std::chrono::steady_clock::now();
-  trace(number, stats);
+  trace(number, tile, stats);
   stats.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     CameraSample& sample = tile.samples[pending_[i].sample];
-    ++sample.shadow_rays;
-    count_route(routes_[i], sample, stats);
+    ++stats.routes[index_of(routes_[i])];
     ++(occluded_[i] ? stats.occluded : stats.unoccluded);
-    if (occluded_[i]) continue;
-    ++sample.unoccluded;
-    sample.radiance += pending_[i].radiance;
+    if (!occluded_[i]) sample.add(pending_[i].radiance, tile.depth > 0);
+    if (tile.depth > 0) continue;
+    ++sample.shadow_rays;
+    ++sample.routes[index_of(routes_[i])];
+    sample.unoccluded += !occluded_[i];
   }
   if (!work_.empty()) count_work(tile.samples, stats);
 }
@@ -67,7 +68,11 @@ void DirectLight::gather(const Light& light, const std::vector<LightRequest>& re
       continue;
     }
     const Rgb bsdf = evaluate_bsdf(surface.bsdf, surface.shading_normal, surface.to_viewer, wi);
-    const Rgb radiance = bsdf * arrival.irradiance * cosine * request.share;
+    Rgb radiance = tile.throughput[request.sample] * bsdf * arrival.irradiance * cosine * request.share;
+    if (tile.goes_on) {
+      radiance *=
+          weight_of(arrival, request.share, bsdf_density(surface.bsdf, surface.shading_normal, surface.to_viewer, wi));
+    }
     if (radiance == Rgb(0)) {
       ++stats.skipped_no_power;
       continue;
@@ -79,20 +84,22 @@ void DirectLight::gather(const Light& light, const std::vector<LightRequest>& re
   }
 }
 
-void DirectLight::trace(std::uint32_t light, LightStats& stats) {
+void DirectLight::trace(std::uint32_t light, const TileSamples& tile, LightStats& stats) {
   occluded_.resize(rays_.size());
   routes_.assign(rays_.size(), RayRoute::other);
-  const bool counts_each = query_.count_work_per_ray || (query_.count_work && query_.tracer);
+  // What the tracer learns from is where the camera looks.
+  const FrameTracer* const tracer = tile.depth == 0 ? query_.tracer : nullptr;
+  const bool counts_each = query_.count_work_per_ray || (query_.count_work && tracer);
   work_.assign(counts_each ? rays_.size() : 0, RayCounts());
-  if (query_.tracer) {
-    ShadowTile tile;
-    tile.light = light;
-    tile.rays = {rays_.data(), rays_.size()};
-    tile.skip = skip_.data();
-    tile.pixels = pixels_.data();
-    tile.routes = routes_.data();
-    tile.each = work_.empty() ? nullptr : work_.data();
-    query_.tracer->occluded(tile, occluded_.data());
+  if (tracer) {
+    ShadowTile asked;
+    asked.light = light;
+    asked.rays = {rays_.data(), rays_.size()};
+    asked.skip = skip_.data();
+    asked.pixels = pixels_.data();
+    asked.routes = routes_.data();
+    asked.each = work_.empty() ? nullptr : work_.data();
+    tracer->occluded(asked, occluded_.data());
     return;
   }
   QueryOptions options;

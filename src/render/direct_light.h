@@ -26,11 +26,19 @@ struct LightRequest {
   double share;          ///< of what arrives that counts: one over the rays that are expected there
 };
 
-/// A tile's camera samples and what they met: `surfaces[i]` and `pixels[i]` belong to `samples[i]`.
+/// A tile's camera samples and where their paths are: what is at place i of each list belongs together.
 struct TileSamples {
   std::vector<Pixel> pixels;
-  std::vector<Surface> surfaces;
   std::vector<CameraSample> samples;
+  std::vector<std::uint8_t> active;  ///< is the path at a surface?
+  std::vector<Surface> surfaces;
+  std::vector<Rgb>
+      throughput;           ///< of light that leaves the surface towards the path, the share that reaches the camera
+  std::uint32_t depth = 0;  ///< of all paths: bounces between the camera and these surfaces
+  bool goes_on = false;     ///< rays are sent on from these surfaces, and may meet lights that are also asked
+
+  /// Random numbers at each depth are their own.
+  std::uint64_t seed(std::uint64_t of_frame) const { return of_frame + depth * 0x9E3779B97F4A7C15u; }
 };
 
 /// Adds the light of one light to samples that met a surface: a shadow ray for each request where the light can reach,
@@ -46,7 +54,7 @@ class DirectLight {
  private:
   void gather(const Light& light, const std::vector<LightRequest>& requests, const TileSamples& tile,
               LightStats& stats);
-  void trace(std::uint32_t light, LightStats& stats);
+  void trace(std::uint32_t light, const TileSamples& tile, LightStats& stats);
   void count_work(std::vector<CameraSample>& samples, LightStats& stats) const;
 
   struct Pending {

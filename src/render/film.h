@@ -18,6 +18,8 @@ struct CameraSample {
   bool hit = false;                     ///< met a surface; if not, all below stays as it is but for the next two
   bool opaque = false;                  ///< met a surface or an environment
   Rgb radiance{0};                      ///< towards the camera
+  Rgb indirect{0};                      ///< of that, what came over at least two surfaces
+  double openness = 0;                  ///< share of the hemisphere that is free, if it is asked for
   double depth = 0;                     ///< along the viewing axis
   Vec3 normal{0};                       ///< shading normal, world space
   Rgb albedo{0};                        ///< base colour
@@ -26,6 +28,11 @@ struct CameraSample {
   RouteCounts<std::uint32_t> routes{};  ///< of the shadow rays, by what answered them; sums to shadow_rays
   std::uint64_t node_tests = 0;         ///< of those rays, if counted
   std::uint64_t primitive_tests = 0;
+
+  void add(const Rgb& light, bool over_two_surfaces) {
+    radiance += light;
+    if (over_two_surfaces) indirect += light;
+  }
 };
 
 /// Gathers the samples of one tile's pixels, in double, and writes each pixel once when it is complete. Samples of a

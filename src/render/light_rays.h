@@ -25,7 +25,7 @@ class LightRays {
 
   void ask_each(std::uint32_t light, std::uint32_t index, TileSamples& tile, LightStats& stats);
   void ask_chosen(std::uint32_t index, TileSamples& tile, std::vector<LightStats>& stats);
-  void choose_lights(std::uint32_t sample, const Pixel& pixel, std::uint32_t first, std::uint32_t times);
+  void choose_lights(std::uint32_t sample, const TileSamples& tile, std::uint32_t first, std::uint32_t times);
 
   const LightSet& lights_;
   const RenderOptions& options_;

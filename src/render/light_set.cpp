@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_set.h"
 
+#include <algorithm>
+
 #include "render/render.h"
 
 namespace umbrix::render {
@@ -29,7 +31,10 @@ LightSet::LightSet(const World& world, const std::vector<io::Light>& lights) {
     const bool area = io::light_type_info(light.type).has(io::kHasArea);
     lights_.push_back(make_light(light, world));
     (area ? with_area : punctual_).push_back(number);
-    if (lights_.back()->surrounds()) surrounding_.push_back(number);
+    if (light.type == io::LightType::mesh) mesh_lights_.emplace(light.instance, number);
+    if (!lights_.back()->surrounds()) continue;
+    surrounding_.push_back(number);
+    if (light.visible) seen_.push_back(number);
   }
   if (with_area.size() <= kMostSampledLights) {
     sampled_ = std::move(with_area);
@@ -48,9 +53,23 @@ Choice LightSet::choice_of(double u) const {
   return choice;
 }
 
+double LightSet::expected_rays(std::uint32_t number, std::uint32_t light_samples) const {
+  if (many_.empty()) return light_samples;
+  if (!chooses()) return 0;
+  const auto place = static_cast<std::size_t>(std::lower_bound(many_.begin(), many_.end(), number) - many_.begin());
+  return by_power_.probability(place) * static_cast<double>(kMostSampledLights) * light_samples;
+}
+
+bool LightSet::find_mesh_light(const World& world, const Surface& surface, std::uint32_t& number) const {
+  const auto found = mesh_lights_.find(world.meshes[surface.primitive.mesh].instance);
+  if (found == mesh_lights_.end()) return false;
+  number = found->second;
+  return true;
+}
+
 Rgb LightSet::background(const Vec3& direction) const {
   Rgb sum(0);
-  for (const std::uint32_t number : surrounding_) sum += lights_[number]->background(direction);
+  for (const std::uint32_t number : seen_) sum += lights_[number]->background(direction);
   return sum;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame is cut into tiles, and a tile is rendered one sample a pixel at a time: all camera rays, then all shadow
-// rays of each light. Rays that are traced together so are near each other, and a tile's memory stays small.
+// rays of each light, then all rays to the next surfaces, and so on. Rays that are traced together so are near each
+// other, and a tile's memory stays small.
 #include "render/render.h"
 
 #include <fmt/format.h>
@@ -9,8 +10,11 @@
 #include <algorithm>
 #include <chrono>
 #include <mutex>
+#include <optional>
 
+#include "render/ambient_occlusion.h"
 #include "render/aovs/aov.h"
+#include "render/bounces.h"
 #include "render/camera.h"
 #include "render/direct_light.h"
 #include "render/light_rays.h"
@@ -38,32 +42,41 @@ struct Frame {
   PixelRect window;  ///< the crop, or all
   std::vector<const Aov*> aovs;
   ShadowQuery shadow_query;
+  FilterSampler filter;
+  bool looks_around;
 
   bool cancelled() const { return options.cancel && options.cancel->load(std::memory_order_relaxed); }
+};
+
+/// Which of a pixel's samples.
+struct SampleRange {
+  std::uint32_t begin, end;
 };
 
 /// Renders one tile, a sample a pixel at a time, keeping its memory from sample to sample.
 class TileRenderer {
  public:
   explicit TileRenderer(const Frame& frame)
-      : frame_(frame), light_rays_(frame.lights, frame.options, DirectLight(frame.world, frame.shadow_query)) {
+      : frame_(frame),
+        light_rays_(frame.lights, frame.options, DirectLight(frame.world, frame.shadow_query)),
+        bounces_(frame.world, frame.lights, frame.options),
+        ambient_occlusion_(frame.world, frame.options) {
     stats_.lights.resize(frame.lights.size());
   }
 
-  void render(const PixelRect& tile, io::Image& image) {
-    TileFilm film(frame_.aovs, tile);
+  void render(const PixelRect& tile, const SampleRange& range, TileFilm& film) {
     order_pixels(tile);
-    for (std::uint32_t index = 0; index < frame_.options.samples && !frame_.cancelled(); ++index) {
+    for (std::uint32_t index = range.begin; index < range.end && !frame_.cancelled(); ++index) {
       look(index);
       shade();
-      light_rays_.trace(index, tile_, stats_.lights);
+      if (frame_.looks_around) ambient_occlusion_.trace(index, tile_);
+      follow_paths(index);
       for (std::size_t i = 0; i < tile_.samples.size(); ++i) {
         const Pixel pixel = tile_.pixels[i];
         const auto row = static_cast<std::size_t>(pixel.y - tile.y) * static_cast<std::size_t>(tile.width);
         film.add(row + static_cast<std::size_t>(pixel.x - tile.x), tile_.samples[i]);
       }
     }
-    film.write(frame_.window, image);
   }
 
   const RenderStats& stats() const { return stats_; }
@@ -87,7 +100,8 @@ class TileRenderer {
     rays_.clear();
     for (const Pixel& pixel : tile_.pixels) {
       const SamplePoint at = pixel_sample(pixel.x, pixel.y, index, frame_.options.samples, frame_.options.seed);
-      rays_.push_back(frame_.camera.ray(pixel.x + at.x, pixel.y + at.y));
+      const double x = 0.5 + frame_.filter.offset(at.x), y = 0.5 + frame_.filter.offset(at.y);
+      rays_.push_back(frame_.camera.ray(pixel.x + x, pixel.y + y));
     }
     hits_.assign(rays_.size(), Hit());
     QueryOptions query;
@@ -102,10 +116,14 @@ class TileRenderer {
   void shade() {
     tile_.samples.assign(rays_.size(), CameraSample());
     tile_.surfaces.resize(rays_.size());
+    tile_.active.resize(rays_.size());
+    tile_.throughput.assign(rays_.size(), Rgb(1));
+    tile_.depth = 0;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       CameraSample& sample = tile_.samples[i];
-      if (!hits_[i].valid()) {
-        sample.opaque = frame_.lights.surrounds();
+      tile_.active[i] = hits_[i].valid();
+      if (!tile_.active[i]) {
+        sample.opaque = frame_.lights.has_background();
         if (sample.opaque) sample.radiance = frame_.lights.background(glm::normalize(load(rays_[i].direction)));
         continue;
       }
@@ -120,8 +138,19 @@ class TileRenderer {
     }
   }
 
+  /// Adds the light of each surface of the paths.
+  void follow_paths(std::uint32_t index) {
+    for (std::uint32_t left = frame_.options.bounces;; --left) {
+      tile_.goes_on = left > 0;
+      light_rays_.trace(index, tile_, stats_.lights);
+      if (left == 0 || !bounces_.follow(index, tile_, stats_)) return;
+    }
+  }
+
   const Frame& frame_;
   LightRays light_rays_;
+  Bounces bounces_;
+  AmbientOcclusion ambient_occlusion_;
   RenderStats stats_;
   TileSamples tile_;
   std::vector<Ray> rays_;
@@ -158,6 +187,10 @@ Status find_window(const RenderOptions& options, PixelRect& window) {
     return {StatusCode::invalid_argument,
             fmt::format("{} samples a pixel and {} a light are not from 1 to {} and {}", options.samples,
                         options.light_samples, kMostSamples, kMostLightSamples)};
+  }
+  if (options.bounces > kMostBounces) {
+    return {StatusCode::invalid_argument,
+            fmt::format("{} bounces are more than the limit of {}", options.bounces, kMostBounces)};
   }
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
   if (crop.width < 1 || crop.height < 1 || crop.x < 0 || crop.y < 0 || crop.x > options.width - crop.width ||
@@ -199,25 +232,45 @@ FrameView frame_view(const View& view, const RenderOptions& options) {
   return result;
 }
 
+/// One pass, or for a preview passes that double the samples.
+std::vector<SampleRange> plan_passes(const RenderOptions& options) {
+  std::vector<SampleRange> passes;
+  for (std::uint32_t end = options.preview ? 1 : options.samples, begin = 0; begin < options.samples;) {
+    passes.push_back({begin, std::min(end, options.samples)});
+    begin = end;
+    end *= 2;
+  }
+  return passes;
+}
+
 void render_tiles(const Frame& frame, io::Image& image, RenderStats& stats) {
   const std::vector<PixelRect> tiles = cut_into_tiles(frame.window);
+  const std::vector<SampleRange> passes = plan_passes(frame.options);
+  std::vector<std::optional<TileFilm>> films(tiles.size());  // from the first pass to the last
   std::vector<std::uint8_t> finished(tiles.size());
   TileStore* const store = frame.options.store;
   if (store) store->begin(tiles, image, finished);
   std::mutex mutex;
-  auto done = static_cast<std::size_t>(std::count(finished.begin(), finished.end(), std::uint8_t{1}));
-  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-    if (frame.cancelled() || finished[i]) return;
-    TileRenderer renderer(frame);
-    renderer.render(tiles[i], image);
-    const std::lock_guard<std::mutex> lock(mutex);
-    // What was cancelled has not all of its samples.
-    if (frame.cancelled()) return;
-    stats += renderer.stats();
-    ++done;
-    if (store) store->finish(i);
-    if (frame.options.progress) frame.options.progress(done, tiles.size());
-  });
+  auto done = passes.size() * static_cast<std::size_t>(std::count(finished.begin(), finished.end(), std::uint8_t{1}));
+  for (const SampleRange& pass : passes) {
+    const bool last = pass.end == frame.options.samples;
+    tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
+      if (frame.cancelled() || finished[i]) return;
+      TileRenderer renderer(frame);
+      if (!films[i]) films[i].emplace(frame.aovs, tiles[i]);
+      renderer.render(tiles[i], pass, *films[i]);
+      films[i]->write(frame.window, image);
+      if (last) films[i].reset();
+      const std::lock_guard<std::mutex> lock(mutex);
+      // What was cancelled has not all of its samples.
+      if (frame.cancelled()) return;
+      stats += renderer.stats();
+      ++done;
+      if (store && last) store->finish(i);
+      if (frame.options.progress) frame.options.progress(done, tiles.size() * passes.size());
+    });
+    if (!last && !frame.cancelled()) frame.options.preview(image, pass.end);
+  }
 }
 
 }  // namespace
@@ -252,7 +305,9 @@ Status render(const World& world, const View& view, const RenderOptions& options
                        Camera(view.camera, options.width, options.height),
                        window,
                        aovs,
-                       {options.kernel, options.tracer, options.count_work, per_ray}};
+                       {options.kernel, options.tracer, options.count_work, per_ray},
+                       FilterSampler(options.filter),
+                       std::any_of(aovs.begin(), aovs.end(), [](const Aov* aov) { return aov->looks_around; })};
 
   prepare_image(frame, image);
   stats = RenderStats();

@@ -4,10 +4,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "render/pixel_filter.h"
 #include "render/render_stats.h"
 #include "render/tile_store.h"
 #include "render/world.h"
@@ -35,6 +37,9 @@ struct RenderOptions {
   /// Shadow rays of a sample to each light with an area; punctual lights need one. Where there are more than
   /// kMostSampledLights with an area, that many are chosen among them, by power, in place of each.
   std::uint32_t light_samples = 1;
+  std::uint32_t bounces = 0;  ///< of light between the lights and what the camera sees, after the first
+  PixelFilter filter = PixelFilter::box;
+  float ao_distance = std::numeric_limits<float>::infinity();  ///< how near the AOV "ao" looks
   std::uint64_t seed = 0;
   std::vector<std::string> aovs;  ///< names of known_aovs()
   KernelId kernel;                ///< of camera rays, and of shadow rays if there is no tracer
@@ -43,14 +48,18 @@ struct RenderOptions {
   bool count_work = false;        ///< fill LightStats::counts; slower
   const std::atomic<bool>* cancel = nullptr;                          ///< polled for each tile and sample
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< tiles; called by one thread at a time
+  /// If set, the image is made in passes over all tiles, each with as many samples as all before it together, and shown
+  /// after each but the last. Pixels are the same; memory is that of the image in double more.
+  std::function<void(const io::Image& image, std::uint32_t samples)> preview;
   TileStore* store = nullptr;  ///< tiles that it has are not rendered again, and not part of the stats
 };
 
 constexpr std::size_t kMostSampledLights = 8;
 
-/// Limits of RenderOptions::samples and light_samples.
+/// Limits of RenderOptions::samples, light_samples and bounces.
 constexpr std::uint32_t kMostSamples = 65536;
 constexpr std::uint32_t kMostLightSamples = 4096;
+constexpr std::uint32_t kMostBounces = 1000;
 
 struct AovInfo {
   std::string name;
@@ -70,7 +79,7 @@ Status check_options(const RenderOptions& options);
 /// The memory that the image's pixels take; 0 for options that check_options refuses.
 std::uint64_t image_bytes(const RenderOptions& options);
 
-/// Renders direct light into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on
+/// Renders into `image`: R, G, B, A, then the channels of the AOVs in the order asked for. Runs on
 /// oneTBB's threads (see with_threads). The pixels depend on the world, the view and the options' image, crop, both
 /// kinds of samples and seed alone. Fails as check_options; cancelled leaves `image` unfinished.
 Status render(const World& world, const View& view, const RenderOptions& options, io::Image& image, RenderStats& stats);

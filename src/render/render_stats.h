@@ -44,11 +44,15 @@ struct LightStats {
   }
 };
 
-/// What a render did. Everything but the seconds is the same for any number of threads.
+/// What a render did. Everything but the seconds is the same for any number of threads; of routes that holds if work
+/// is counted.
 struct RenderStats {
   std::uint64_t camera_rays = 0;
   std::uint64_t camera_hits = 0;
-  double camera_seconds = 0;       ///< in closest(), summed over threads
+  double camera_seconds = 0;      ///< in closest(), summed over threads
+  std::uint64_t bounce_rays = 0;  ///< from surface to surface
+  std::uint64_t bounce_hits = 0;
+  double bounce_seconds = 0;
   std::vector<LightStats> lights;  ///< in the order given
   double seconds = 0;              ///< of the wall clock
   FrameStats frame;                ///< of the tracer, if there was one; of the last part added
@@ -65,6 +69,9 @@ struct RenderStats {
     camera_rays += o.camera_rays;
     camera_hits += o.camera_hits;
     camera_seconds += o.camera_seconds;
+    bounce_rays += o.bounce_rays;
+    bounce_hits += o.bounce_hits;
+    bounce_seconds += o.bounce_seconds;
     lights.resize(o.lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) lights[i] += o.lights[i];
     frame = o.frame;

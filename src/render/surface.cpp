@@ -9,6 +9,9 @@
 #include <cmath>
 #include <limits>
 
+#include "render/materials/material_at.h"
+#include "render/materials/normal_map.h"
+
 namespace umbrix::render {
 namespace {
 
@@ -70,16 +73,33 @@ Vec3 transform_normal(const WorldMesh& mesh, const io::Transform& m, const Vec3&
   return mesh.mirrored ? -turned : turned;
 }
 
-/// The interpolated normal, or the geometric one where there is none worth the name.
-Vec3 shading_normal(const World& world, const WorldMesh& mesh, const std::array<std::uint32_t, 3>& indices,
-                    const Barycentrics& b, const Vec3& geometric) {
-  const std::vector<io::Float3>& normals = mesh.mesh->normals;
-  if (normals.empty()) return geometric;
-  Vec3 local(0);
-  for (std::size_t i = 0; i < 3; ++i) local += b.b[i] * to_vec3(normals[indices[i]]);
-  const Vec3 normal = transform_normal(mesh, world.file->instances[mesh.instance].to_world, local);
-  const double length = glm::length(normal);
-  return length > 0 && std::isfinite(length) ? normal / length : geometric;
+/// A triangle's normal in its mesh's space, of any length.
+Vec3 local_normal(const MeshPoint& at) {
+  const std::array<std::uint32_t, 3>& indices = at.mesh.triangles[at.triangle];
+  Vec3 p[3];
+  for (std::size_t k = 0; k < 3; ++k) p[k] = to_vec3(at.mesh.positions[indices[k]]);
+  return glm::cross(p[1] - p[0], p[2] - p[0]);
+}
+
+bool has_direction(const Vec3& v) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length);
+}
+
+/// The interpolated normal as a normal texture turns it, or the geometric one where there is none worth the name.
+Vec3 shading_normal(const WorldMesh& mesh, const MeshPoint& at, const Vec3& geometric) {
+  const io::Transform& to_world = at.file.instances[mesh.instance].to_world;
+  Vec3 local(0), normal = geometric;
+  if (!at.mesh.normals.empty()) {
+    double blended[3];
+    at.blend(at.mesh.normals, blended);
+    local = Vec3(blended[0], blended[1], blended[2]);
+    const Vec3 turned = transform_normal(mesh, to_world, local);
+    if (has_direction(turned)) normal = glm::normalize(turned);
+  }
+  if (at.material().normal_texture.texture < 0) return normal;
+  const Vec3 mapped = mapped_normal(at, to_world, has_direction(local) ? local : local_normal(at), normal);
+  return has_direction(mapped) ? glm::normalize(mapped) : normal;
 }
 
 /// Sums from the nearest corner on, so that any weights of the other two give a point of the plane, and a corner that
@@ -113,13 +133,11 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   const WorldMesh& mesh = world.meshes[hit.primitive.mesh];
   const std::array<std::uint32_t, 3>& indices = mesh.mesh->triangles[hit.primitive.triangle];
   Corners corners;
-  for (std::size_t i = 0; i < 3; ++i) corners.p[i] = to_vec3(mesh.positions[indices[i]]);
+  for (std::size_t i = 0; i < 3; ++i) corners.p[i] = to_vec3(mesh.position(indices[i]));
   const Vec3 normal = glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0]);
   const double area = glm::length(normal);
 
   Surface surface;
-  const io::Material& material = world.file->materials[mesh.mesh->material];
-  surface.bsdf = {to_vec3(material.base_color), material.metallic, material.roughness};
   surface.primitive = hit.primitive;
   surface.to_viewer = -glm::normalize(Vec3(ray.direction[0], ray.direction[1], ray.direction[2]));
 
@@ -133,7 +151,8 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   // lost in double as well is seen from the front.
   Vec3 geometric = area > 0 ? normal / area : surface.to_viewer;
   if (mesh.mirrored) geometric = -geometric;
-  Vec3 shading = shading_normal(world, mesh, indices, b, geometric);
+  const MeshPoint at = {*world.file, *mesh.mesh, hit.primitive.triangle, {b.b[0], b.b[1], b.b[2]}};
+  Vec3 shading = shading_normal(mesh, at, geometric);
   const bool behind = glm::dot(geometric, surface.to_viewer) < 0;
   if (behind) {
     geometric = -geometric;
@@ -141,7 +160,9 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   }
   surface.geometric_normal = geometric;
   surface.shading_normal = shading;
-  if (!behind || material.double_sided) surface.emission = to_vec3(material.emission);
+  const MaterialPoint material = material_at(at);
+  surface.bsdf = material.bsdf;
+  if (!behind || at.material().double_sided || at.material().unlit) surface.emission = material.emission;
   surface.origin = origin_before(surface);
   return surface;
 }

@@ -181,5 +181,19 @@ TEST_F(Output, InputIsNeverOverwritten) {
 
 TEST_F(Output, ChannelsBeyondColourNeedAnExr) { EXPECT_EQ(render("out.png", {"--aov", "normal"}).code, 2); }
 
+TEST_F(Output, InstancesThatShareTheirMeshLookTheSameInLessMemory) {
+  const auto forest = [&](const std::string& instances) {
+    return run(
+        {"render", UMBRIX_FOREST, "-q", "--size", "96x54", "--instances", instances, "-o", path(instances + ".exr")});
+  };
+  const Outcome placed = forest("flatten"), shared = forest("share"), unknown = forest("copy");
+  ASSERT_EQ(placed.code, 0);
+  ASSERT_EQ(shared.code, 0);
+  EXPECT_EQ(read("flatten.exr"), read("share.exr"));
+  EXPECT_LT(shared.peak_megabytes, 0.7 * placed.peak_megabytes);
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("--instances: 'copy' is not one of auto|flatten|share"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace umbrix::app

@@ -247,7 +247,7 @@ TEST_F(Sequence, ProgressIsOneLineAFrame) {
   const Outcome plain = run(lines);
   EXPECT_TRUE(contains(plain.err, "umbrix: frame 4 done, 2 of 3")) << plain.err;
   EXPECT_TRUE(contains(plain.err, "frames  3 rendered, 0 skipped")) << plain.err;
-  EXPECT_TRUE(contains(plain.err, "the camera does not move")) << plain.err;
+  EXPECT_TRUE(contains(plain.err, "nothing moves")) << plain.err;
   EXPECT_TRUE(contains(run(bar).err, "100% frame 3 of 3")) << plain.err;
 }
 

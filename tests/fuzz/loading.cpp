@@ -40,14 +40,48 @@ void check_mesh(const Mesh& mesh, std::size_t materials) {
   const std::size_t vertices = mesh.positions.size();
   promise(!mesh.triangles.empty(), "a mesh has triangles");
   promise(mesh.normals.empty() || mesh.normals.size() == vertices, "normals match positions");
-  promise(mesh.texcoords.empty() || mesh.texcoords.size() == vertices, "texture coordinates match positions");
+  for (const auto& texcoords : mesh.texcoord_sets) {
+    promise(texcoords.empty() || texcoords.size() == vertices, "texture coordinates match positions");
+  }
+  promise(mesh.colors.empty() || mesh.colors.size() == vertices, "colours match positions");
+  promise(mesh.tangents.empty() || mesh.tangents.size() == vertices, "tangents match positions");
   promise(mesh.material < materials, "a mesh's material exists");
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t v : triangle) promise(v < vertices, "vertex indices are in range");
   }
 }
 
-void check_scene(const SceneFile& scene) {
+void check_textures(const SceneFile& scene) {
+  for (const io::Texture& texture : scene.textures) {
+    promise(texture.image < static_cast<std::int32_t>(scene.images.size()), "a texture's image exists");
+  }
+  for (const io::Material& material : scene.materials) {
+    for (const auto member : io::kMaterialTextures) {
+      const io::TextureUse& use = material.*member;
+      if (use.texture < 0) continue;
+      promise(use.texture < static_cast<std::int32_t>(scene.textures.size()), "a material's texture exists");
+      promise(scene.textures[static_cast<std::size_t>(use.texture)].image >= 0, "a texture in use has an image");
+      promise(use.texcoord < 2, "a texture's coordinates are of a set that is read");
+      for (const auto& row : use.transform) {
+        for (const double x : row) promise(std::isfinite(x), "a texture's transform is finite");
+      }
+    }
+  }
+}
+
+// What is decoded is whole, or not there and told.
+void check_images(SceneFile& scene, const io::LoadLimits& limits) {
+  const Status status = io::read_textures(scene, limits);
+  if (!status) promise(status.code() == StatusCode::resource_limit && is_plain(status.message()), "images have limits");
+  for (const io::TextureImage& image : scene.images) {
+    promise(image.pixels.empty() || image.channels <= 4, "an image has at most four channels");
+    promise(image.pixels.empty() || image.pixels.size() == std::size_t{image.width} * image.height * image.channels,
+            "an image's pixels match its size");
+  }
+}
+
+void check_still(const SceneFile& scene) {
+  check_textures(scene);
   for (const Mesh& mesh : scene.meshes) check_mesh(mesh, scene.materials.size());
   for (const io::Instance& instance : scene.instances) {
     promise(instance.mesh < scene.meshes.size(), "an instance's mesh exists");
@@ -55,6 +89,31 @@ void check_scene(const SceneFile& scene) {
   }
   for (const Camera& camera : scene.cameras) check_camera(camera);
   for (const Light& light : scene.lights) check_light(light);
+}
+
+// At any moment the scene is as whole as at rest, or stays as it was.
+void check_moments(const SceneFile& scene) {
+  if (!scene.motion) return;
+  const auto [first, last] = io::motion_span(scene);
+  promise(std::isfinite(first) && std::isfinite(last) && first <= last, "a scene's span is in order");
+  SceneFile moved = scene;
+  for (const double time : {first, last, first + 0.3 * (last - first), -1e30, 1e30, 0.0}) {
+    io::SceneChanges changes;
+    const Status status = io::pose_scene(moved, {time, time}, changes);
+    if (!status) check_refusal(status);
+    for (const std::uint32_t i : changes.instances)
+      promise(i < scene.instances.size(), "an instance that moved exists");
+    for (const std::uint32_t m : changes.meshes) {
+      promise(m < scene.meshes.size() && moved.meshes[m].positions.size() == scene.meshes[m].positions.size(),
+              "a mesh that moved keeps its vertices");
+    }
+    check_still(moved);
+  }
+}
+
+void check_scene(const SceneFile& scene) {
+  check_still(scene);
+  if (scene.instanced_triangles() <= 10000) check_moments(scene);
   for (const auto* lines : {&scene.ignored, &scene.warnings}) {
     for (const std::string& line : *lines) promise(is_plain(line), "remarks are plain text");
   }
@@ -121,10 +180,16 @@ void check_loading(const std::string& path, bool strict) {
   if (strict) {
     limits.triangles = 1u << 14;
     limits.nodes = 1000;
+    limits.image_pixels = 1u << 16;
   }
   SceneFile scene;
   const Status status = io::load_scene(path, scene, limits);
-  if (status) return check_scene(scene);
+  if (status) {
+    check_scene(scene);
+    check_images(scene, limits);
+    for (const std::string& line : scene.warnings) promise(is_plain(line), "remarks are plain text");
+    return;
+  }
   check_refusal(status);
   promise(scene.meshes.empty() && scene.instances.empty() && scene.path.empty(), "nothing is left of a refused scene");
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "io/gltf_text.h"
+#include "io/picture_bytes.h"
 #include "umbrix/io/image_file.h"
 
 namespace {
@@ -73,6 +74,36 @@ Gltf with_quantized() {
   return g;
 }
 
+// A triangle of two joints, the second of which turns, with a morph target, many times over.
+Gltf with_motion() {
+  Gltf g;
+  const int positions = g.floats3({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  const int joints =
+      g.accessor(bytes_of(std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}), 5121, 3, "VEC4");
+  const int weights = g.accessor(bytes_of(std::vector<float>{.5f, .5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), 5126, 3, "VEC4");
+  std::vector<float> matrices(32, 0);
+  for (std::size_t i = 0; i < 32; i += i % 16 == 15 ? 1 : 5) matrices[i] = 1;
+  const int skinned = g.mesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+                              {"targets", {{{"POSITION", positions}}}}});
+  g.json["meshes"][0]["weights"] = {0.5};
+  g.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", g.accessor(bytes_of(matrices), 5126, 2, "MAT4")}}};
+  g.root({{"mesh", skinned}, {"skin", 0}});
+  g.root({{"children", {2}}});
+  g.json["nodes"].push_back({{"translation", {0, 1, 0}}});
+  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, 1, 0});
+  const int input = g.accessor(bytes_of(std::vector<float>{0, 2}), 5126, 2, "SCALAR");
+  const int output = g.accessor(bytes_of(std::vector<float>{0, 1}), 5126, 2, "SCALAR");
+  g.json["animations"][0]["samplers"].push_back({{"input", input}, {"output", output}, {"interpolation", "STEP"}});
+  g.json["animations"][0]["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}});
+  const int mesh = g.mesh({{"attributes", {{"POSITION", positions}}}});
+  const int many = g.root({{"mesh", mesh}});
+  g.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+  g.json["nodes"][static_cast<std::size_t>(many)]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", positions}};
+  g.animate(0, many, "translation", {0, 1}, {0, 0, 0, 1, 2, 3});
+  return g;
+}
+
 Gltf with_everything() {
   Gltf g = one_triangle();
   g.json["extensionsUsed"] = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "EXT_none"};
@@ -112,10 +143,40 @@ Gltf with_everything() {
   return g;
 }
 
+// Pictures of both formats, for a mask, a normal and an emission.
+Gltf with_textures() {
+  Gltf g = one_triangle();
+  auto& primitive = g.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] = g.accessor(bytes_of(std::vector<float>{0, 0, 1, 0, 0, 1}), 5126, 3, "VEC2");
+  primitive["attributes"]["COLOR_0"] = g.accessor(bytes_of(std::vector<float>(12, 1)), 5126, 3, "VEC4");
+  primitive["attributes"]["TANGENT"] = g.accessor(bytes_of(std::vector<float>(12, 1)), 5126, 3, "VEC4");
+  const int png = g.view(umbrix::io::testing::png_bytes(1, 2, 4, {1, 2, 3, 4, 5, 6, 7, 8}));
+  g.json["images"] = {{{"bufferView", png}, {"mimeType", "image/png"}},
+                      {{"uri", std::string("data:image/jpeg;base64,") + umbrix::io::testing::kGreyJpeg}}};
+  g.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+  g.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}};
+  g.json["extensionsUsed"] = {"KHR_texture_transform", "KHR_materials_specular", "KHR_materials_ior"};
+  g.json["materials"] = {
+      {{"alphaMode", "MASK"},
+       {"pbrMetallicRoughness",
+        {{"baseColorTexture",
+          {{"index", 0},
+           {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}, {"scale", {2, 3}}}}}}}},
+         {"metallicRoughnessTexture", {{"index", 1}}}}},
+       {"normalTexture", {{"index", 1}, {"scale", 0.5}}},
+       {"emissiveFactor", {1, 1, 1}},
+       {"emissiveTexture", {{"index", 1}, {"texCoord", 0}}},
+       {"extensions",
+        {{"KHR_materials_ior", {{"ior", 1.4}}},
+         {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularTexture", {{"index", 0}}}}}}}}};
+  return g;
+}
+
 void write_scenes(const fs::path& out, const std::vector<std::string>& scene_paths) {
   Folder text(out / "gltf_text"), binary(out / "gltf_binary");
-  for (const Gltf& g :
-       {one_triangle(), with_mode(5), with_mode(6), with_mode(1), with_sparse(), with_quantized(), with_everything()}) {
+  for (const Gltf& g : {one_triangle(), with_mode(5), with_mode(6), with_mode(1), with_sparse(), with_quantized(),
+                        with_everything(), with_motion(), with_textures()}) {
     text.add(g.text());
     binary.add(g.glb());
   }

@@ -117,13 +117,17 @@ const Fault kFaults[] = {
      },
      "\\x1b[31m"},
     {"extension_required", [](Gltf& g) { g.json["extensionsRequired"] = {"EXT_of_tomorrow"}; }, "EXT_of_tomorrow"},
+#ifndef UMBRIX_READS_DRACO
     {"draco",
      [](Gltf& g) {
        g.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
        positions(g).erase("bufferView");
      },
      "gltf-transform"},
+#endif
+#ifndef UMBRIX_READS_MESHOPTIMIZER
     {"meshopt", [](Gltf& g) { g.json["extensionsRequired"] = {"EXT_meshopt_compression"}; }, "gltfpack"},
+#endif
     {"gltf_1", [](Gltf& g) { g.json["asset"]["version"] = "1.0"; }, "version 1.0"},
     {"no_asset", [](Gltf& g) { g.json.erase("asset"); }, "asset"},
     {"camera_yfov",

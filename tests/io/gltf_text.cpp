@@ -93,17 +93,24 @@ int Gltf::root(const nlohmann::json& node) {
   return number;
 }
 
-std::string Gltf::text() const {
+nlohmann::json Gltf::with_buffers(const nlohmann::json& first) const {
   nlohmann::json out = json;
-  if (!bin.empty()) {
-    out["buffers"] = {{{"byteLength", bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(bin)}}};
+  out["buffers"] = {first};
+  if (placeholder_bytes > 0) {
+    out["buffers"].push_back(
+        {{"byteLength", placeholder_bytes}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});
   }
-  return out.dump();
+  return out;
+}
+
+std::string Gltf::text() const {
+  if (bin.empty()) return json.dump();
+  return with_buffers({{"byteLength", bin.size()}, {"uri", "data:application/octet-stream;base64," + base64(bin)}})
+      .dump();
 }
 
 std::string Gltf::glb() const {
-  nlohmann::json out = json;
-  out["buffers"] = {{{"byteLength", bin.size()}}};
+  const nlohmann::json out = with_buffers({{"byteLength", bin.size()}});
   std::string text = out.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   std::string padded = bin;

@@ -41,6 +41,7 @@ std::string base64(const std::string& bytes);
 struct Gltf {
   nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
   std::string bin;
+  std::size_t placeholder_bytes = 0;  ///< of a second buffer that EXT_meshopt_compression stands in for
 
   int view(const std::string& bytes, int stride = 0);
   int accessor(const std::string& bytes, int component_type, std::size_t count, const char* type, int stride = 0);
@@ -56,6 +57,9 @@ struct Gltf {
 
   std::string text() const;  ///< with the buffer as a data URI
   std::string glb() const;
+
+ private:
+  nlohmann::json with_buffers(const nlohmann::json& first) const;
 };
 
 /// Three corners of a unit right triangle, placed by one node.

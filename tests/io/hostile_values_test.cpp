@@ -269,17 +269,6 @@ TEST(HostileValues, AScaleOfZeroFlattensAndLoads) {
   EXPECT_EQ(load(g).instanced_triangles(), 1u);
 }
 
-// What is not used is not judged: a broken skin of a model that is shown at rest.
-TEST(HostileValues, SkinsAndMorphTargetsAreNamedAsIgnored) {
-  Gltf g = testing::one_triangle();
-  g.json["skins"] = {{{"joints", {99, 99}}, {"inverseBindMatrices", 99}}};
-  node(g)["skin"] = 0;
-  primitive(g)["targets"] = {{{"POSITION", 0}}};
-  const SceneFile scene = load(g);
-  EXPECT_EQ(scene.instanced_triangles(), 1u);
-  EXPECT_EQ(scene.ignored.size(), 2u);
-}
-
 TEST(HostileValues, LimitsHoldBeforeMemoryIsAskedFor) {
   const TempFolder folder;
   const auto refused = [&](const Gltf& g, const char* what, const std::function<void(LoadLimits&)>& set) {

@@ -8,6 +8,7 @@
 
 #include "built_scenes.h"
 #include "light_estimates.h"
+#include "textured_scenes.h"
 
 namespace umbrix::render {
 namespace {
@@ -163,6 +164,23 @@ TEST(AreaLights, TrianglesOfAllSizesShineAsPolygonsDo) {
                   polygon_irradiance(corners, normal));
     }
   }
+}
+
+// As the part of it that the image lights, and by the image's colour.
+TEST(AreaLights, TexturedTriangleShinesWhereItsImageDoes) {
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 random(kSeed);
+  Lamp lamp({{-1, -1, 1}, {-1, 2, 1}, {2, -1, 1}});
+  lamp.file.meshes[0].texcoord_sets[0] = {{0, 0}, {0, 0}, {1, 0}};
+  lamp.file.materials[0].emission = {4, 4, 4};
+  io::TextureUse& use = lamp.file.materials[0].emissive_texture;
+  use.texture = add_texture(lamp.file, 2, 1, {0, 0, 0, 0, 255, 0}, {Wrap::repeat, Wrap::repeat, true});
+  const Vec3 normal(0, 0, 1);
+  const double whole = polygon_irradiance({{-1, -1, 1}, {-1, 2, 1}, {2, -1, 1}}, normal);
+  const double lit = polygon_irradiance({{0.5, -1, 1}, {0.5, 0.5, 1}, {2, -1, 1}}, normal);
+  expect_mean(irradiance(*lamp.light(), receiver(Vec3(0), normal), random), 4 * lit);
+  use.transform[0][2] = 0.5;  // the other part
+  expect_mean(irradiance(*lamp.light(), receiver(Vec3(0), normal), random), 4 * (whole - lit));
 }
 
 TEST(AreaLights, TriangleShinesBehindOnlyIfDoubleSided) {

@@ -39,6 +39,7 @@ void add_lamps(View& view) {
 
 Status load(const char* path, const char* setup_path, io::SceneFile& scene, View& view) {
   if (Status status = io::load_scene(path, scene); !status) return status;
+  if (Status status = io::read_textures(scene); !status) return status;
   io::Setup setup;
   if (setup_path) {
     if (Status status = io::load_setup(setup_path, scene, setup); !status) return status;
@@ -47,7 +48,7 @@ Status load(const char* path, const char* setup_path, io::SceneFile& scene, View
                 : scene.cameras.empty() ? io::framing_camera(scene)
                                         : scene.cameras.front();
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
-  if (view.lights.empty()) view.lights = {io::default_light(view.camera)};
+  if (view.lights.empty()) view.lights = io::default_lights(scene, view.camera);
   for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
   add_lamps(view);
   return {};

@@ -85,17 +85,20 @@ TEST(World, MaskedMeshBelowTheCutOffIsNotThere) {
   EXPECT_EQ(flattened(scene).size(), 1u);
 }
 
-TEST(World, BlendedMeshIsOpaqueAndSaysSo) {
+TEST(World, BlendedMeshSaysSoUnlessItIsNotThere) {
   io::SceneFile scene = scene_of(kUnitQuad);
   place(scene, 0);
   std::vector<std::string> notes;
   EXPECT_EQ(flattened(scene, &notes).size(), 1u);
   EXPECT_TRUE(notes.empty());
   scene.materials[0].alpha_mode = io::AlphaMode::blend;
-  scene.materials[0].alpha = 0;
+  scene.materials[0].alpha = 0.5f;
   EXPECT_EQ(flattened(scene, &notes).size(), 1u);
   ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("blended"), std::string::npos);
+  scene.materials[0].alpha = 0;
+  EXPECT_TRUE(flattened(scene, &notes).empty());
+  EXPECT_TRUE(notes.empty());
 }
 
 TEST(World, RaysMeetThePlacedTriangles) {
@@ -109,6 +112,32 @@ TEST(World, RaysMeetThePlacedTriangles) {
   ASSERT_TRUE(world.scene.closest(ray, hit));
   EXPECT_EQ(hit.t, 4);
   EXPECT_EQ(world.meshes[hit.primitive.mesh].instance, 1u);
+}
+
+TEST(World, WhatMovesIsPlacedAnewAndWhatStaysIsKept) {
+  io::SceneFile scene = scene_of(kUnitQuad);
+  place(scene, 0);
+  place(scene, 0, {{{1, 0, 0, 10}, {0, 1, 0, 0}, {0, 0, 1, 5}}});
+  World world;
+  ASSERT_TRUE(build_world(scene, {}, world).ok());
+  const io::Float3* const still = world.meshes[0].positions.data();
+  const auto depth_at = [&](float x) {
+    Hit hit;
+    const Ray ray = {{x, 0.5f, 9}, 0, {0, 0, -1}, std::numeric_limits<float>::infinity()};
+    return world.scene.closest(ray, hit) ? hit.t : -1;
+  };
+
+  scene.instances[1].to_world = {{{-1, 0, 0, 20}, {0, 1, 0, 0}, {0, 0, 1, 8}}};
+  io::SceneChanges changes;
+  ASSERT_TRUE(move_world(changes, {}, world).ok());
+  EXPECT_EQ(depth_at(10.25f), 4) << "nothing was said to have moved";
+  changes.instances = {1};
+  ASSERT_TRUE(move_world(changes, {}, world).ok());
+  EXPECT_EQ(depth_at(10.25f), -1);
+  EXPECT_EQ(depth_at(19.25f), 1);
+  EXPECT_EQ(depth_at(0.25f), 9);
+  EXPECT_TRUE(world.meshes[1].mirrored);
+  EXPECT_EQ(world.meshes[0].positions.data(), still);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Image {
   std::vector<std::pair<std::string, std::vector<float>>> matrices;  ///< 16 floats each, e.g. worldToCamera
 };
 
-enum class ToneMap { none, srgb, aces };
+enum class ToneMap { none, srgb, aces, agx };
 
 struct WriteOptions {
   PixelType pixel_type = PixelType::half;  ///< EXR; depths (Z, *.Z) are floats always, large halves end at 65504

@@ -27,10 +27,11 @@ struct Aov {
   std::vector<const char*> channels;  ///< at most kMaxAovChannels
   Reduction reduction;
   double background;  ///< where no sample contributes
-  bool counts_work;   ///< needs node and primitive tests of each ray, which makes rendering slower
+  bool counts_work;   ///< needs the work of each ray, which makes rendering slower
   double (*contribute)(const CameraSample& sample, double* values);  ///< returns the sample's weight; 0: nothing
   HeatMapStyle heat_map = HeatMapStyle::none;
-  const char* unit = "";  ///< what is shown, for the legend of a heat map
+  const char* unit = "";      ///< what is shown, for the legend of a heat map
+  bool looks_around = false;  ///< needs CameraSample::openness
 };
 
 /// R, G, B, A; always the first.

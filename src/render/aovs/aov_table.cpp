@@ -4,12 +4,13 @@
 
 namespace umbrix::render {
 
-extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kShadowAov, kNodeTestsAov, kPrimitiveTestsAov, kKernelAov;
+extern const Aov kNormalAov, kDepthAov, kAlbedoAov, kIndirectAov, kAmbientOcclusionAov, kShadowAov, kNodeTestsAov,
+    kPrimitiveTestsAov, kKernelAov;
 
 namespace {
 
-const Aov* const kTable[] = {&kNormalAov,    &kDepthAov,          &kAlbedoAov, &kShadowAov,
-                             &kNodeTestsAov, &kPrimitiveTestsAov, &kKernelAov};
+const Aov* const kTable[] = {&kNormalAov, &kDepthAov,     &kAlbedoAov,         &kIndirectAov, &kAmbientOcclusionAov,
+                             &kShadowAov, &kNodeTestsAov, &kPrimitiveTestsAov, &kKernelAov};
 
 }  // namespace
 

@@ -23,7 +23,7 @@ const Aov kKernelAov = {"kernel",
                         {"kernel.cached", "kernel.beam", "kernel.indexed", "kernel.linked", "kernel.other"},
                         Reduction::mean,
                         0,
-                        false,
+                        true,
                         contribute,
                         HeatMapStyle::shares,
                         "what answered the shadow rays"};

@@ -45,12 +45,19 @@ class SkyMap {
     return turned(Vec3(radius * std::sin(longitude), height, radius * std::cos(longitude)), sin_);
   }
 
+  /// Of `choose`, at a unit direction.
+  double density(const Vec3& direction) const {
+    const Place at = place(direction);
+    const auto column = std::min(static_cast<std::uint32_t>(at.x), map_->width - 1);
+    const auto row = std::min(static_cast<std::uint32_t>(at.y), map_->height - 1);
+    return rows_.probability(row) > 0 ? rows_.probability(row) * columns_[row].probability(column) / solid_angle(row)
+                                      : 0;
+  }
+
   /// Bilinear between the pixels' centres.
   Rgb radiance(const Vec3& direction) const {
-    const Vec3 local = turned(direction, -sin_);
-    const double from_top = std::acos(std::clamp(local.y, -1.0, 1.0)) / kPi;
-    const double from_left = 0.5 - std::atan2(local.x, local.z) / (2 * kPi);
-    const double x = from_left * map_->width - 0.5, y = from_top * map_->height - 0.5;
+    const Place at = place(direction);
+    const double x = at.x - 0.5, y = at.y - 0.5;
     const double left = std::floor(x), top = std::floor(y);
     const auto column = static_cast<std::int64_t>(left), row = static_cast<std::int64_t>(top);
     const Rgb above = glm::mix(pixel(column, row), pixel(column + 1, row), x - left);
@@ -59,6 +66,18 @@ class SkyMap {
   }
 
  private:
+  /// In pixels from the map's upper left corner.
+  struct Place {
+    double x, y;
+  };
+
+  Place place(const Vec3& direction) const {
+    const Vec3 local = turned(direction, -sin_);
+    const double from_top = std::acos(std::clamp(local.y, -1.0, 1.0)) / kPi;
+    const double from_left = 0.5 - std::atan2(local.x, local.z) / (2 * kPi);
+    return {from_left * map_->width, from_top * map_->height};
+  }
+
   /// About +y, by the angle whose sine this is.
   Vec3 turned(const Vec3& v, double sine) const { return Vec3(cos_ * v.x + sine * v.z, v.y, cos_ * v.z - sine * v.x); }
 
@@ -101,11 +120,12 @@ double cross_section(const World& world) {
   return kPi * glm::dot(half, half);
 }
 
-Arrival arrive_from_infinity(const Vec3& direction, const Rgb& irradiance) {
+Arrival arrive_from_infinity(const Vec3& direction, const Rgb& irradiance, double density) {
   Arrival arrival;
   arrival.to_light = direction;
   arrival.tmax = std::numeric_limits<float>::infinity();
   arrival.irradiance = irradiance;
+  arrival.density = density;
   if (irradiance == Rgb(0)) arrival.unreached = Unreached::no_power;
   return arrival;
 }
@@ -118,7 +138,11 @@ class ConstantEnvironment final : public Light {
   Arrival sample(const Receiver& receiver, const SamplePoint& u) const override {
     const Vec3 local = cosine_hemisphere(u);
     const Rgb irradiance = local.z > 0 ? radiance_ * (kPi / local.z) : Rgb(0);
-    return arrive_from_infinity(Frame3(receiver.normal).to_world(local), irradiance);
+    return arrive_from_infinity(Frame3(receiver.normal).to_world(local), irradiance, local.z / kPi);
+  }
+
+  double density(const Receiver& receiver, const Vec3& direction, const Surface* surface) const override {
+    return surface ? 0 : std::max(glm::dot(receiver.normal, direction), 0.0) / kPi;
   }
 
   double power() const override { return power_; }
@@ -138,10 +162,14 @@ class MappedEnvironment final : public Light {
         power_(luminance(scale_) * sky_.total() * cross_section(world)) {}
 
   Arrival sample(const Receiver&, const SamplePoint& u) const override {
-    if (!(sky_.total() > 0)) return arrive_from_infinity(Vec3(0, 1, 0), Rgb(0));
+    if (!(sky_.total() > 0)) return arrive_from_infinity(Vec3(0, 1, 0), Rgb(0), 0);
     double density = 0;
     const Vec3 direction = sky_.choose(u, density);
-    return arrive_from_infinity(direction, background(direction) / density);
+    return arrive_from_infinity(direction, background(direction) / density, density);
+  }
+
+  double density(const Receiver&, const Vec3& direction, const Surface* surface) const override {
+    return surface || !(sky_.total() > 0) ? 0 : sky_.density(direction);
   }
 
   double power() const override { return power_; }

@@ -28,7 +28,10 @@ struct Arrival {
       0};          ///< on a surface that faces the light: for lights with an area radiance over density of directions
   Vec3 normal{0};  ///< unit, of the light where the ray ends, on the side that shines; zero for a light without area
   Vec3 error{0};   ///< bounds how far the ray's end is from the light's surface, per axis
+  double density = 0;  ///< Light::density of this way
 };
+
+struct Surface;
 
 /// A light as rendering needs it, with what is worth computing once. Adding a type is a file that defines its LightKind
 /// and a line in umbrix/io/light_types.h. Const calls are thread-safe.
@@ -43,6 +46,10 @@ class Light {
   /// of irradiance times any function of the direction is that function's integral over the radiance that arrives; it
   /// may rely on the receiver's seeing its own hemisphere only. A punctual light has but one way and needs no `u`.
   virtual Arrival sample(const Receiver& receiver, const SamplePoint& u) const = 0;
+
+  /// How densely `sample` chooses a unit direction, per steradian: of a ray that left the scene if `surface` is null,
+  /// else of one that met it. 0 if no ray can meet the light, as it is no part of the scene.
+  virtual double density(const Receiver& receiver, const Vec3& direction, const Surface* surface) const;
 
   /// About what a light with an area gives off in all: lights are chosen by it where they are many. 0: nothing at all.
   virtual double power() const { return 0; }

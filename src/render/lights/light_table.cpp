@@ -15,6 +15,8 @@ std::unique_ptr<Light> make_light(const io::Light& light, const World& world) {
   return table[static_cast<std::size_t>(light.type)]->make(light, world);
 }
 
+double Light::density(const Receiver&, const Vec3&, const Surface*) const { return 0; }
+
 Rgb Light::background(const Vec3&) const { return Rgb(0); }
 
 Rgb radiance_of(const io::Light& light) { return to_vec3(light.color) * double{light.intensity}; }

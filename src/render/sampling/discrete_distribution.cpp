@@ -31,4 +31,8 @@ Choice DiscreteDistribution::choose(double u) const {
           std::min((wanted - below) / weight, kBelowOne)};
 }
 
+double DiscreteDistribution::probability(std::size_t index) const {
+  return (sums_[index] - (index == 0 ? 0 : sums_[index - 1])) / total();
+}
+
 }  // namespace umbrix::render

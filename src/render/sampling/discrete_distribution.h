@@ -27,6 +27,9 @@ class DiscreteDistribution {
   /// For u in [0, 1), if the total is not 0.
   Choice choose(double u) const;
 
+  /// Of an index, if the total is not 0.
+  double probability(std::size_t index) const;
+
  private:
   std::vector<double> sums_;  ///< of the weights up to and with each
 };
