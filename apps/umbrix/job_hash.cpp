@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <set>
 #include <string_view>
 
@@ -68,7 +67,10 @@ std::string aov_lines(const RenderJob& job, const std::vector<std::string>& aovs
     for (const render::AovInfo& aov : render::known_aovs()) work = work || (aov.name == name && aov.of_tracer);
   }
   const RenderArguments& a = job.arguments;
-  if (work) lines += fmt::format("kernel={}\nsimd={}\n", a.kernel_name, a.simd_target);
+  if (work) {
+    lines +=
+        fmt::format("kernel={}\nsimd={}\ninstances={}\n", a.kernel_name, a.simd_target, static_cast<int>(a.instancing));
+  }
   return lines;
 }
 
@@ -98,10 +100,9 @@ Status hash_inputs(const RenderJob& job, std::string& out) {
   for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files}) {
     for (const std::string& path : *files) {
       std::string hash;
-      std::error_code error;
-      if (std::filesystem::exists(path, error)) {
-        if (Status status = io::hash_file(path, hash); !status) return status;
-      }
+      const Status status = io::hash_file(path, hash);
+      // Of what a scene can do without, a texture say, loading tells that it cannot be read.
+      if (!status && status.code() != StatusCode::bad_input) return status;
       hashes.insert(hash);
     }
   }

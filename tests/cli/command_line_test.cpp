@@ -57,6 +57,8 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
       {{"--crop", "4x4+14+0"}, "not within the image"},
       {{"--aov", "normal,colour"}, "'colour'"},
       {{"--tonemap", "filmic"}, "none|srgb"},
+      {{"--filter", "sinc"}, "box|"},
+      {{"--ao-distance", "0"}, "from 1e-30"},
       {{"--kernel", "magic"}, "magic"},
       {{"--simd", "MMX"}, "MMX"},
       {{"--camera", "nose"}, "'eye'"},

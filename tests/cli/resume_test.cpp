@@ -3,6 +3,7 @@
 // from.
 #include <csignal>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "program.h"
@@ -85,13 +86,15 @@ TEST_F(Resume, JobIsTheContentAndWhatChangesPixels) {
     return job_of("b.exr");
   };
   EXPECT_EQ(job_with({"-j", "1", "--kernel", "brute", "--build-quality", "fast", "--stats", path("s.json"),
-                      "--checkpoint", "1h", "--exposure", "2", "--half", "--memory-limit", "4G"}),
+                      "--checkpoint", "1h", "--exposure", "2", "--half", "--memory-limit", "4G", "--instances", "share",
+                      "--preview", path("p.png")}),
             job_with({"--half"}))
       << "these change no pixel of an EXR";
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--seed", "1"},
                                                                                     {"--spp", "2"},
                                                                                     {"--light-samples", "2"},
                                                                                     {"--no-mesh-lights"},
+                                                                                    {"--bounces", "1"},
                                                                                     {"--float"},
                                                                                     {"--aov", "depth"},
                                                                                     {"--camera", "eye"}}) {
@@ -114,6 +117,33 @@ TEST_F(Resume, JobIsTheContentAndWhatChangesPixels) {
   const std::string lit = job_with({"--setup", path("setup.json")});
   write("setup.json", R"({"lights": [[0, 0, 4]]})");
   EXPECT_NE(job_with({"--setup", path("setup.json")}), lit);
+}
+
+TEST_F(Resume, JobDependsOnTextures) {
+  io::Image texture;
+  texture.width = texture.height = 1;
+  texture.channels = {"R", "G", "B"};
+  texture.pixels = {1, 0.5f, 0.25f};
+  ASSERT_TRUE(io::write_image(path("t.png"), texture, {}).ok());
+  auto scene = nlohmann::json::parse(read("scene.gltf"));
+  scene["images"] = {{{"uri", "t.png"}}};
+  scene["textures"] = {{{"source", 0}}};
+  scene["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  scene["meshes"][0]["primitives"][0]["material"] = 0;
+  write("scene.gltf", scene.dump());
+  const std::vector<std::string> more = {"--size", "24x16", "--resume"};
+  ASSERT_EQ(render("a.exr", more).code, 0);
+  const std::string job = job_of("a.exr");
+  texture.pixels[0] = 0;
+  io::WriteOptions replace;
+  replace.overwrite = true;
+  ASSERT_TRUE(io::write_image(path("t.png"), texture, replace).ok());
+  ASSERT_EQ(render("a.exr", more).code, 0);
+  EXPECT_NE(job_of("a.exr"), job);
+  // Without the picture the material does without, and that is another job again.
+  std::filesystem::remove(path("t.png"));
+  ASSERT_EQ(render("b.exr", more).code, 0);
+  EXPECT_NE(job_of("b.exr"), job_of("a.exr"));
 }
 
 /// A render of many tiles that takes a while on any machine.

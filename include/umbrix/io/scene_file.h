@@ -143,7 +143,7 @@ class SceneMotion;
 /// What a file holds, after all checks, at rest.
 struct SceneFile {
   std::string path;
-  std::vector<std::string> files;  ///< all that were opened for it: this one, and those that it names
+  std::vector<std::string> files;  ///< all that it is made of: this one, and those that it names
   std::string generator;
   std::vector<Material> materials;
   std::vector<Texture> textures;
