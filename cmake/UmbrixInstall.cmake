@@ -33,6 +33,11 @@ foreach(program umbrix_cli umbrix_bench)
   endif()
 endforeach()
 
+if(TARGET umbrix_cli)
+  install(DIRECTORY apps/umbrix/openjd apps/umbrix/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/umbrix
+    USE_SOURCE_PERMISSIONS COMPONENT umbrix_apps)
+endif()
+
 # The package: a minor version may change the interface while the major one is 0.
 get_target_property(umbrix_type umbrix TYPE)
 string(COMPARE EQUAL ${umbrix_type} STATIC_LIBRARY umbrix_is_static)

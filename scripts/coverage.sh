@@ -8,7 +8,7 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 jobs=$(nproc)
 
 scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache gcovr libtbb-dev libhwy-dev libglm-dev \
-  libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev \
+  libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev \
   libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools \
   libembree-dev libgtest-dev
 cmake --preset coverage -DCMAKE_CXX_COMPILER_LAUNCHER=ccache

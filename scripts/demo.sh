@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 
 # openimageio-tools: OpenImageIO's CMake files insist on its programs.
 scripts/install_packages.sh g++ cmake ninja-build pkg-config libtbb-dev libhwy-dev libglm-dev libboost-dev \
-  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev \
+  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev \
   libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools
 
 launcher=$(command -v ccache || true)

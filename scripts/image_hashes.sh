@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 
 scripts/install_packages.sh g++ clang-14 cmake ninja-build pkg-config ccache libtbb-dev libhwy-dev libglm-dev \
-  libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev \
+  libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev \
   libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools \
   libembree-dev libgtest-dev
 for preset in release clang; do

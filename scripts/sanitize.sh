@@ -24,7 +24,7 @@ case $kind in
 esac
 
 scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache libtbb-dev libhwy-dev libglm-dev libboost-dev \
-  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev \
+  libfmt-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libxxhash-dev \
   libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools libembree-dev \
   libgtest-dev
 cmake --preset "$preset" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache

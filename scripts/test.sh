@@ -11,7 +11,7 @@ export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1  # checkouts of the same sources s
 # openimageio-tools: OpenImageIO's CMake files insist on its programs. chromium: a test looks at a page with it.
 scripts/install_packages.sh g++ cmake ninja-build pkg-config ccache clang-format-14 clang-tidy-14 \
   libtbb-dev libhwy-dev libglm-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev \
-  libtinygltf-dev \
+  libtinygltf-dev libxxhash-dev \
   libmeshoptimizer-dev libdraco-dev libopenimageio-dev openimageio-tools libembree-dev libgtest-dev librsvg2-dev chromium
 
 # Configures, builds and tests a preset; keeps ctest's summary for the last lines of the log.
@@ -26,6 +26,7 @@ check_preset() {
 }
 
 check_preset release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+scripts/farm.sh
 
 if [ "$quick" != --quick ]; then
   mapfile -t sources < <(find apps bench include scenes src tests -name '*.cpp' -o -name '*.h' | sort)

@@ -16,5 +16,7 @@ struct Command {
 Command add_render_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
 Command add_kernels_command(CLI::App& program);
+Command add_merge_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
 
 }  // namespace umbrix::app

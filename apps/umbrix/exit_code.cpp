@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "message.h"
+#include "openjd_lines.h"
 
 namespace umbrix::app {
 
@@ -12,6 +13,7 @@ int report_status(const Status& status) {
   // As if the signal had ended the program, which is what shells and scripts expect of a pipe that was closed.
   if (status.code() == StatusCode::cancelled) return 128 + SIGPIPE;
   say_error(status.message());
+  say_openjd_failure(status.message().c_str());
   switch (status.code()) {
     case StatusCode::bad_input:
       return kBadInput;

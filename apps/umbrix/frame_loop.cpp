@@ -4,30 +4,28 @@
 #include <fmt/format.h>
 
 #include "heat_map_files.h"
+#include "image_metadata.h"
 #include "memory_guard.h"
 #include "moving_scene.h"
 #include "progress.h"
+#include "standard_streams.h"
 #include "stopwatch.h"
-#include "umbrix/version.h"
+#include "umbrix/io/content_hash.h"
 
 namespace umbrix::app {
 namespace {
 
-/// Says in the file how it was made, without anything that differs between runs, machines or kernels, or with the other
-/// frames of the run.
-void add_metadata(const RenderJob& job, const Frame& frame, io::Image& image) {
-  const RenderArguments& a = job.arguments;
-  image.metadata = {{"Software", fmt::format("umbrix {}", version_string())},
-                    {"umbrix:seed", std::to_string(a.seed)},
-                    {"umbrix:spp", std::to_string(a.samples)}};
-  if (a.light_samples > 1) image.metadata.emplace_back("umbrix:light_samples", std::to_string(a.light_samples));
-  if (a.bounces > 0) image.metadata.emplace_back("umbrix:bounces", std::to_string(a.bounces));
-  if (frame.number) image.metadata.emplace_back("umbrix:frame", std::to_string(*frame.number));
-  if (a.crop) {
-    const render::Crop& c = *a.crop;
-    image.metadata.emplace_back("umbrix:crop", fmt::format("{}x{}+{}+{}", c.width, c.height, c.x, c.y));
-    image.metadata.emplace_back("umbrix:frame_size", fmt::format("{}x{}", job.size.width, job.size.height));
-  }
+/// What lasts from frame to frame.
+struct RunState {
+  Progress& progress;
+  Checkpoints& checkpoints;
+};
+
+/// What of a frame tells its floats from those of other frames, parts and jobs.
+std::string checkpoint_key(const RenderJob& job, const Frame& frame) {
+  const render::Crop part = job.window.value_or(render::Crop{0, 0, job.size.width, job.size.height});
+  return io::content_hash(fmt::format("{} {} {} {} {} {} {}", job.pixels_hash, frame.number.has_value(),
+                                      frame.number.value_or(0), part.x, part.y, part.width, part.height));
 }
 
 Status write_preview(const RenderArguments& a, const io::Image& image) {
@@ -36,13 +34,18 @@ Status write_preview(const RenderArguments& a, const io::Image& image) {
   return io::write_image(a.preview, image, options);
 }
 
-Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& image, FrameReport& report) {
+Status trace(RenderJob& job, const Frame& frame, RunState& state, io::Image& image, FrameReport& report) {
   set_phase("rendering");
   const Stopwatch watch;
   render::RenderOptions options = render_options(job);
   if (job.arguments.kernel_name == "auto") options.tracer = &job.tracer;
   options.frame = frame.number.value_or(0);
-  options.progress = [&progress](std::size_t done, std::size_t total) { progress.update(done, total); };
+  options.progress = [&state](std::size_t done, std::size_t total) { state.progress.update(done, total); };
+  if (!frame.checkpoint.empty() && state.checkpoints.in_use()) {
+    state.checkpoints.begin_frame(frame.checkpoint, checkpoint_key(job, frame));
+    options.store = &state.checkpoints;
+  }
+  options.cancel = &state.checkpoints.leaving();
   Status preview_status;
   if (!job.arguments.preview.empty()) {
     options.preview = [&](const io::Image& so_far, std::uint32_t) {
@@ -51,6 +54,7 @@ Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& 
   }
   const render::View view = {frame.camera, job.view.lights};
   Status status = render::render(job.world, view, options, image, report.stats);
+  state.checkpoints.wait_if_leaving();
   report.seconds.render = watch.seconds();
   return status.ok() ? preview_status : status;
 }
@@ -58,11 +62,11 @@ Status trace(RenderJob& job, const Frame& frame, Progress& progress, io::Image& 
 Status write_images(const RenderJob& job, const Frame& frame, io::Image& image, FrameReport& report) {
   set_phase("writing images");
   const Stopwatch watch;
-  add_metadata(job, frame, image);
   for (const std::string& path : frame.outputs) {
+    image.metadata = image_metadata(job, frame, path);
     if (Status status = io::write_image(path, image, job.arguments.write); !status) return status;
   }
-  if (Status status = write_heat_maps(job.arguments, frame, image, report.stats); !status) return status;
+  if (Status status = write_heat_maps(job, frame, image, report.stats); !status) return status;
   report.seconds.write = watch.seconds();
   return {};
 }
@@ -75,17 +79,27 @@ void count(RenderJob& job, FrameReport& report) {
   if (!job.arguments.stats.empty()) job.reports.push_back(std::move(report));
 }
 
-Status render_all(RenderJob& job, Progress& progress) {
-  io::Image image;
+/// A line with the pixel's channels, for --pixel.
+Status print_pixel(const RenderJob& job, const Frame& frame, const io::Image& image) {
+  std::string line = frame.number ? fmt::format("frame {}, ", *frame.number) : "";
+  line += fmt::format("pixel {},{}:", job.window->x, job.window->y);
+  for (std::size_t c = 0; c < image.channels.size(); ++c)
+    line += fmt::format(" {} {}", image.channels[c], image.pixels[c]);
+  return print_result(line + "\n");
+}
+
+Status render_all(RenderJob& job, RunState& state, io::Image& image) {
   for (std::size_t i = 0; i < job.frames.size(); ++i) {
     FrameReport report;
     report.frame = i;
     Status status = move_world(job, job.frames[i], report);
-    if (status.ok()) status = trace(job, job.frames[i], progress, image, report);
+    if (status.ok()) status = trace(job, job.frames[i], state, image, report);
     if (status.ok()) status = write_images(job, job.frames[i], image, report);
+    if (status.ok() && job.arguments.print_pixel) status = print_pixel(job, job.frames[i], image);
     if (!status) return status;
+    state.checkpoints.end_frame();
     count(job, report);
-    progress.frame_done(job.frames[i].number);
+    state.progress.frame_done(job.frames[i].number);
   }
   return {};
 }
@@ -97,7 +111,7 @@ render::RenderOptions render_options(const RenderJob& job) {
   render::RenderOptions options;
   options.width = job.size.width;
   options.height = job.size.height;
-  options.crop = a.crop;
+  options.crop = job.window;
   options.samples = a.samples;
   options.light_samples = a.light_samples;
   options.bounces = a.bounces;
@@ -110,9 +124,12 @@ render::RenderOptions render_options(const RenderJob& job) {
   return options;
 }
 
-Status render_frames(RenderJob& job) {
+Status render_frames(RenderJob& job, Checkpoints& checkpoints) {
   Progress progress(job.arguments.quiet ? ProgressStyle::none : job.arguments.progress, job.frames.size());
-  Status status = render_all(job, progress);
+  RunState state = {progress, checkpoints};
+  io::Image image;
+  Status status = render_all(job, state, image);
+  if (!status) checkpoints.keep_frame();
   progress.finish();
   return status;
 }

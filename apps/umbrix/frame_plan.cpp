@@ -7,6 +7,8 @@
 #include <filesystem>
 
 #include "heat_map_files.h"
+#include "image_metadata.h"
+#include "message.h"
 #include "output_pattern.h"
 
 namespace umbrix::app {
@@ -24,6 +26,31 @@ Status check_pattern(const std::string& path, std::size_t frames) {
   if (places == 0 && frames > 1)
     return wrong("needs a place for the frame number, such as name.####" + fs::path(path).extension().string());
   return {};
+}
+
+/// A tile has files of its own.
+void name_parts(const RenderArguments& a, Frame& frame) {
+  if (a.tile) {
+    for (std::string& path : frame.outputs) path = path_of_tile(path, *a.tile);
+  }
+  if (!frame.outputs.empty()) frame.checkpoint = frame.outputs.front() + ".part";
+  if (frame.outputs.empty() && !frame.heat_maps.empty()) frame.checkpoint = frame.heat_maps.front().path + ".part";
+}
+
+/// Takes away files for which `done` is true, and frames that have no other.
+template <class ImageDone, class HeatMapDone>
+void leave_out(RenderJob& job, ImageDone image_done, HeatMapDone heat_map_done) {
+  for (Frame& frame : job.frames) {
+    const auto image = [&](const std::string& path) { return image_done(frame, path); };
+    const auto heat_map = [&](const HeatMapFile& map) { return heat_map_done(frame, map); };
+    frame.outputs.erase(std::remove_if(frame.outputs.begin(), frame.outputs.end(), image), frame.outputs.end());
+    frame.heat_maps.erase(std::remove_if(frame.heat_maps.begin(), frame.heat_maps.end(), heat_map),
+                          frame.heat_maps.end());
+  }
+  const auto done = [](const Frame& frame) { return frame.outputs.empty() && frame.heat_maps.empty(); };
+  const auto end = std::remove_if(job.frames.begin(), job.frames.end(), done);
+  job.skipped = static_cast<std::size_t>(job.frames.end() - end);
+  job.frames.erase(end, job.frames.end());
 }
 
 }  // namespace
@@ -50,6 +77,7 @@ Status plan_frames(const RenderArguments& a, std::vector<Frame>& out) {
     for (HeatMapFile& map : frame.heat_maps) map.path = path_of_frame(map.path, number);
     out.push_back(std::move(frame));
   }
+  for (Frame& frame : out) name_parts(a, frame);
   return {};
 }
 
@@ -58,15 +86,26 @@ void skip_existing(RenderJob& job) {
     std::error_code error;
     return fs::exists(path, error);
   };
-  const auto drawn = [&](const HeatMapFile& map) { return exists(map.path); };
-  for (Frame& frame : job.frames) {
-    frame.outputs.erase(std::remove_if(frame.outputs.begin(), frame.outputs.end(), exists), frame.outputs.end());
-    frame.heat_maps.erase(std::remove_if(frame.heat_maps.begin(), frame.heat_maps.end(), drawn), frame.heat_maps.end());
-  }
-  const auto done = [](const Frame& frame) { return frame.outputs.empty() && frame.heat_maps.empty(); };
-  const auto end = std::remove_if(job.frames.begin(), job.frames.end(), done);
-  job.skipped = static_cast<std::size_t>(job.frames.end() - end);
-  job.frames.erase(end, job.frames.end());
+  leave_out(
+      job, [&](const Frame&, const std::string& path) { return exists(path); },
+      [&](const Frame&, const HeatMapFile& map) { return exists(map.path); });
+}
+
+void skip_done(RenderJob& job) {
+  const auto done = [&](const Frame& frame, const std::string& path, const Metadata& metadata) {
+    if (!is_done(path, metadata)) return false;
+    if (!job.arguments.quiet) say(fmt::format("umbrix: skip {}, it is done", path));
+    // Whoever wrote it was killed before it could do this.
+    std::error_code error;
+    fs::remove(frame.checkpoint, error);
+    return true;
+  };
+  leave_out(
+      job,
+      [&](const Frame& frame, const std::string& path) { return done(frame, path, image_metadata(job, frame, path)); },
+      [&](const Frame& frame, const HeatMapFile& map) {
+        return done(frame, map.path, image_metadata(job, frame, map.content));
+      });
 }
 
 Status place_cameras(RenderJob& job) {

@@ -14,6 +14,9 @@ Status plan_frames(const RenderArguments& arguments, std::vector<Frame>& out);
 /// Takes away what is there already: files, and frames that have all of theirs.
 void skip_existing(RenderJob& job);
 
+/// Takes away what is done already: files that are whole and of this job, and frames that have all of theirs. Says so.
+void skip_done(RenderJob& job);
+
 /// Gives each frame its camera: a still the one at rest. Fails as io::camera_at, naming file and frame.
 Status place_cameras(RenderJob& job);
 

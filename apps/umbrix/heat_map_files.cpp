@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
+#include "image_metadata.h"
+#include "output_pattern.h"
 #include "strict_number.h"
 
 namespace umbrix::app {
@@ -56,13 +56,6 @@ void set_heat_max(const std::string& text, std::vector<HeatMapFile>& maps) {
   }
 }
 
-bool is_png(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png";
-}
-
 /// Heat maps are not photographs: exposure and tone map would falsify their colours.
 io::WriteOptions heat_map_options(bool overwrite) {
   io::WriteOptions options;
@@ -106,22 +99,23 @@ std::vector<std::string> heat_map_files(const std::vector<HeatMapFile>& maps) {
 }
 
 Status check_heat_maps(const RenderArguments& a, const Frame& frame) {
-  const io::WriteOptions options = heat_map_options(a.write.overwrite || a.skip_existing);
+  const io::WriteOptions options = heat_map_options(may_exist(a));
   for (const HeatMapFile& map : frame.heat_maps) {
-    if (!is_png(map.path)) return {StatusCode::output_failed, fmt::format("{}: a heat map is a .png", map.path)};
+    if (!has_extension(map.path, ".png"))
+      return {StatusCode::output_failed, fmt::format("{}: a heat map is a .png", map.path)};
     if (Status status = io::check_output(map.path, options); !status) return status;
   }
   return {};
 }
 
-Status write_heat_maps(const RenderArguments& a, const Frame& frame, const io::Image& image,
+Status write_heat_maps(const RenderJob& job, const Frame& frame, const io::Image& image,
                        const render::RenderStats& stats) {
   for (const HeatMapFile& map : frame.heat_maps) {
     io::Image picture;
     if (Status status = render::make_heat_map(map.content, image, stats, picture); !status) return status;
-    picture.metadata = image.metadata;
-    picture.metadata.emplace_back("umbrix:heat_map", map.content.aov);
-    if (Status status = io::write_image(map.path, picture, heat_map_options(a.write.overwrite)); !status) return status;
+    picture.metadata = image_metadata(job, frame, map.content);
+    const io::WriteOptions options = heat_map_options(job.arguments.write.overwrite);
+    if (Status status = io::write_image(map.path, picture, options); !status) return status;
   }
   return {};
 }

@@ -19,7 +19,7 @@ std::vector<std::string> heat_map_files(const std::vector<HeatMapFile>& maps);
 Status check_heat_maps(const RenderArguments& arguments, const Frame& frame);
 
 /// Draws and writes those of a frame from its image and stats. output_failed names the file.
-Status write_heat_maps(const RenderArguments& arguments, const Frame& frame, const io::Image& image,
+Status write_heat_maps(const RenderJob& job, const Frame& frame, const io::Image& image,
                        const render::RenderStats& stats);
 
 }  // namespace umbrix::app

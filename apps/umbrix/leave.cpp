@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "openjd_lines.h"
 #include "umbrix/io/image_file.h"
 
 namespace umbrix::app {
@@ -13,6 +14,7 @@ void leave_at_once(const char* text, int code) noexcept {
   io::remove_temporaries();
   if (text) [[maybe_unused]]
     const auto written = write(STDERR_FILENO, text, std::strlen(text));
+  if (text) say_openjd_failure(text);
   _exit(code);
 }
 

@@ -42,7 +42,8 @@ int run(int argc, char** argv) {
       "Exit codes: 0 complete, 1 failed, 2 bad command line, 3 bad input, 4 output cannot be written,\n"
       "5 incomplete, 6 out of memory or beyond a limit, 129, 130 and 143 interrupted,\n"
       "141 nobody reads the output any more.");
-  const std::vector<Command> commands = {add_render_command(program), add_info_command(program),
+  const std::vector<Command> commands = {add_render_command(program), add_merge_command(program),
+                                         add_compare_command(program), add_info_command(program),
                                          add_kernels_command(program)};
   try {
     program.parse(argc, argv);

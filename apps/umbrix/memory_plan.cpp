@@ -30,8 +30,9 @@ MemoryPlan plan_memory(const RenderJob& job) {
   plan.world = size.placed_vertices * sizeof(io::Float3) +
                size.placed_triangles * build_bytes_per_triangle(job.arguments.build_quality) +
                size.shared_triangles * kSharedTriangleBytes + size.sharing_instances * kInstanceBytes;
-  // The floats, and a copy of them while they are encoded.
-  plan.image = 2 * render::image_bytes(render_options(job));
+  // The floats, a copy of them while they are encoded, and one for a checkpoint.
+  const std::uint64_t copies = job.arguments.checkpoints.writes() ? 3 : 2;
+  plan.image = copies * render::image_bytes(render_options(job));
   return plan;
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "heat_map_files.h"
+#include "output_pattern.h"
 
 namespace umbrix::app {
 namespace {
@@ -27,8 +28,7 @@ fs::path folder_of(const std::string& path) {
 Status check_stats_file(const RenderArguments& a) {
   std::error_code error;
   if (fs::is_directory(a.stats, error)) return failed(a.stats, "is a folder");
-  if (fs::exists(a.stats, error) && !a.write.overwrite && !a.skip_existing)
-    return failed(a.stats, "exists (use --overwrite to replace it)");
+  if (fs::exists(a.stats, error) && !may_exist(a)) return failed(a.stats, "exists (use --overwrite to replace it)");
   if (!fs::is_directory(folder_of(a.stats), error)) return failed(a.stats, "its folder does not exist");
   if (access(folder_of(a.stats).c_str(), W_OK) != 0) return failed(a.stats, "its folder cannot be written to");
   return {};
@@ -69,12 +69,12 @@ Status check_outputs(const RenderArguments& a, const std::vector<Frame>& frames)
     options.overwrite = true;
     if (Status status = io::check_output(a.preview, options); !status) return status;
   }
-  const auto is_exr = [](const std::string& path) { return fs::path(path).extension() == ".exr"; };
-  if (!a.aovs.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
+  const auto is_exr = [](const std::string& path) { return has_extension(path, ".exr"); };
+  if (!a.aovs.empty() && !a.print_pixel && std::none_of(a.outputs.begin(), a.outputs.end(), is_exr)) {
     return {StatusCode::invalid_argument, "--aov needs an .exr output; other formats hold colour only"};
   }
   io::WriteOptions options = a.write;
-  options.overwrite = a.write.overwrite || a.skip_existing;
+  options.overwrite = may_exist(a);
   for (const Frame& frame : frames) {
     for (const std::string& path : frame.outputs) {
       if (Status status = io::check_output(path, options); !status) return status;

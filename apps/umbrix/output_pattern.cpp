@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <vector>
 
 namespace umbrix::app {
@@ -49,6 +51,13 @@ std::string path_of_frame(const std::string& path, int frame) {
     copied = place.begin + place.length;
   }
   return out + path.substr(copied);
+}
+
+bool has_extension(const std::string& path, const std::string& extension) {
+  std::string own = std::filesystem::path(path).extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return own == extension;
 }
 
 }  // namespace umbrix::app

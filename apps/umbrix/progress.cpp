@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "message.h"
+#include "openjd_lines.h"
 
 namespace umbrix::app {
 namespace {
@@ -17,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const long whole = std::lround(seconds);
   return whole < 3600 ? fmt::format("{}:{:02}", whole / 60, whole % 60)
                       : fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
@@ -39,6 +41,7 @@ void Progress::update(std::size_t done, std::size_t total) {
     drawn_ = Clock::now();
     draw_bar(share);
   }
+  if (style_ == ProgressStyle::openjd) tell_openjd(share);
   // One line for each tenth, or for each frame: few enough for a log, often enough for a farm.
   const int tenths = static_cast<int>(share * 10);
   if (style_ == ProgressStyle::lines && frames_ == 1 && tenths > tenths_) {
@@ -47,8 +50,20 @@ void Progress::update(std::size_t done, std::size_t total) {
   }
 }
 
+void Progress::tell_openjd(double share) {
+  // A line for each hundredth: few enough for a log.
+  const int percent = static_cast<int>(share * 100);
+  if (percent <= percent_) return;
+  percent_ = percent;
+  say_openjd_progress(share * 100);
+}
+
 void Progress::frame_done(std::optional<int> number) {
   ++frames_done_;
+  if (style_ == ProgressStyle::openjd) {
+    say_openjd_status(fmt::format("{} of {} frames done", frames_done_, frames_));
+    tell_openjd(static_cast<double>(frames_done_) / static_cast<double>(frames_));
+  }
   if (style_ != ProgressStyle::lines || frames_ == 1 || !number) return;
   const double share = static_cast<double>(frames_done_) / static_cast<double>(frames_);
   say(fmt::format("umbrix: frame {} done, {} of {}, {} left", *number, frames_done_, frames_,

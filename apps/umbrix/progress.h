@@ -12,9 +12,10 @@ enum class ProgressStyle {
   bar,
   lines,
   none,
+  openjd,  ///< the lines of Open Job Description's farms, on stdout
 };
 
-/// Shows on stderr how far rendering is and how long it will take.
+/// Shows, on stderr unless the style says otherwise, how far rendering is and how long it will take.
 class Progress {
  public:
   /// Of a run of `frames` frames.
@@ -32,6 +33,7 @@ class Progress {
  private:
   double seconds_left(double share) const;
   void draw_bar(double share);
+  void tell_openjd(double share);
 
   ProgressStyle style_;
   std::size_t frames_;
@@ -39,6 +41,7 @@ class Progress {
   std::chrono::steady_clock::time_point start_;
   std::chrono::steady_clock::time_point drawn_;
   int tenths_ = 0;
+  int percent_ = -1;
   bool bar_shown_ = false;
 };
 

@@ -4,10 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
+#include "choice_option.h"
+#include "config_file.h"
+#include "duration.h"
 #include "frame_list.h"
 #include "heat_map_files.h"
+#include "job_hash.h"
+#include "output_pattern.h"
+#include "progress_option.h"
 #include "strict_number.h"
 
 namespace umbrix::app {
@@ -17,44 +22,57 @@ constexpr std::uint64_t kLargestSide = 65536;
 
 [[noreturn]] void reject(const std::string& message) { throw CLI::ValidationError(message); }
 
-int parse_side(const std::string& text, std::uint64_t low, const char* form, const std::string& whole) {
-  std::uint64_t value = 0;
-  if (!parse_number(text, value) || value < low || value > kLargestSide) {
-    reject(fmt::format("'{}' is not of the form {} with numbers from {} to {}", whole, form, low, kLargestSide));
+/// Takes whole numbers with the separators between them, such as "x++", apart; false if the text is of another form.
+bool split_numbers(const std::string& text, const std::string& separators, std::vector<std::uint64_t>& out) {
+  out.clear();
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= separators.size(); ++i) {
+    const std::size_t end = i < separators.size() ? text.find(separators[i], begin) : text.size();
+    std::uint64_t number = 0;
+    if (end == std::string::npos || !parse_number(text.substr(begin, end - begin), number) || number > kLargestSide) {
+      return false;
+    }
+    out.push_back(number);
+    begin = end + 1;
   }
-  return static_cast<int>(value);
+  return true;
 }
 
 /// "WxH".
-Size parse_size(const std::string& text, const char* form, const std::string& whole) {
-  const std::size_t x = text.find('x');
-  if (x == std::string::npos) reject(fmt::format("'{}' is not of the form {}", whole, form));
-  return {parse_side(text.substr(0, x), 1, form, whole), parse_side(text.substr(x + 1), 1, form, whole)};
+Size parse_size(const std::string& text) {
+  std::vector<std::uint64_t> n;
+  if (!split_numbers(text, "x", n) || n[0] < 1 || n[1] < 1) {
+    reject(fmt::format("--size: '{}' is not of the form WxH with numbers from 1 to {}", text, kLargestSide));
+  }
+  return {static_cast<int>(n[0]), static_cast<int>(n[1])};
 }
 
-/// "WxH+X+Y".
+render::Crop crop_of(std::uint64_t x, std::uint64_t y, std::uint64_t width, std::uint64_t height) {
+  return {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)};
+}
+
+/// "WxH+X+Y", or "X0,Y0,X1,Y1" of which the last two are the first pixels beyond.
 render::Crop parse_crop(const std::string& text) {
-  constexpr const char* form = "WxH+X+Y";
-  const std::size_t first = text.find('+');
-  const std::size_t second = first == std::string::npos ? first : text.find('+', first + 1);
-  if (second == std::string::npos) reject(fmt::format("--crop: '{}' is not of the form {}", text, form));
-  const Size size = parse_size(text.substr(0, first), form, text);
-  return {parse_side(text.substr(first + 1, second - first - 1), 0, form, text),
-          parse_side(text.substr(second + 1), 0, form, text), size.width, size.height};
+  std::vector<std::uint64_t> n;
+  if (split_numbers(text, "x++", n) && n[0] > 0 && n[1] > 0) return crop_of(n[2], n[3], n[0], n[1]);
+  if (split_numbers(text, ",,,", n) && n[2] > n[0] && n[3] > n[1]) return crop_of(n[0], n[1], n[2] - n[0], n[3] - n[1]);
+  reject(fmt::format("--crop: '{}' is neither of the form WxH+X+Y nor X0,Y0,X1,Y1 with numbers from 0 to {}", text,
+                     kLargestSide));
 }
 
-/// Adds an option whose value is one of a few words.
-template <typename T>
-void add_choice(CLI::App& command, const std::string& flags, T& value, const std::map<std::string, T>& words,
-                const std::string& help) {
-  std::string names;
-  for (const auto& [word, meaning] : words) names += (names.empty() ? "" : "|") + word;
-  const auto choose = [&value, words, flags, names](const std::string& word) {
-    const auto found = words.find(word);
-    if (found == words.end()) reject(fmt::format("{}: '{}' is not one of {}", flags, word, names));
-    value = found->second;
-  };
-  command.add_option_function<std::string>(flags, choose, help)->type_name(names);
+void choose_pixel(RenderArguments& arguments, const std::string& text) {
+  std::vector<std::uint64_t> n;
+  if (!split_numbers(text, ",", n)) reject(fmt::format("--pixel: '{}' is not of the form X,Y", text));
+  arguments.crop = crop_of(n[0], n[1], 1, 1);
+  arguments.print_pixel = true;
+}
+
+void choose_tile(RenderArguments& arguments, const std::string& text) {
+  Tile tile;
+  if (!parse_tile(text, tile)) {
+    reject(fmt::format("--tile: '{}' is not of the form I/N with I from 0 to N-1 and N up to {}", text, kMostTiles));
+  }
+  arguments.tile = tile;
 }
 
 void choose_kernel(RenderArguments& arguments, const std::string& name) {
@@ -98,13 +116,9 @@ void add_sequence_options(CLI::App& command, RenderArguments& a) {
 void add_image_options(CLI::App& command, RenderArguments& a) {
   command
       .add_option_function<std::string>(
-          "--size", [&a](const std::string& text) { a.size = parse_size(text, "WxH", text); },
+          "--size", [&a](const std::string& text) { a.size = parse_size(text); },
           "Image size; without it 720 rows in the camera's aspect")
       ->type_name("WxH");
-  command
-      .add_option_function<std::string>(
-          "--crop", [&a](const std::string& text) { a.crop = parse_crop(text); }, "Render only this part of the image")
-      ->type_name("WxH+X+Y");
   add_integer(
       command, "--spp", 1, render::kMostSamples, [&a](auto n) { a.samples = static_cast<std::uint32_t>(n); },
       "Samples a pixel, stratified [1]");
@@ -117,23 +131,25 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
       "Times that light goes on from surface to surface before the camera sees it; noisy below some --spp 64 [0]");
   command.add_flag_callback(
       "--no-mesh-lights", [&a] { a.mesh_lights = false; }, "Emissive surfaces are seen, but light nothing");
-  add_choice<render::PixelFilter>(command, "--filter", a.filter,
-                                  {{"box", render::PixelFilter::box},
-                                   {"triangle", render::PixelFilter::triangle},
-                                   {"gaussian", render::PixelFilter::gaussian},
-                                   {"blackman-harris", render::PixelFilter::blackman_harris}},
-                                  "How a pixel's samples are spread around its centre [box]");
+  add_choice<render::PixelFilter>(
+      command, "--filter", [&a](render::PixelFilter filter) { a.filter = filter; },
+      {{"box", render::PixelFilter::box},
+       {"triangle", render::PixelFilter::triangle},
+       {"gaussian", render::PixelFilter::gaussian},
+       {"blackman-harris", render::PixelFilter::blackman_harris}},
+      "How a pixel's samples are spread around its centre [box]");
   add_integer(
       command, "--seed", 0, UINT64_MAX, [&a](auto n) { a.seed = n; }, "Another seed, other sample places [0]");
   add_real(
       command, "--exposure", -64, 64, [&a](double x) { a.write.exposure = static_cast<float>(x); },
       "Stops by which a PNG is brightened [0]");
-  add_choice<io::ToneMap>(command, "--tonemap", a.write.tone_map,
-                          {{"none", io::ToneMap::none},
-                           {"srgb", io::ToneMap::srgb},
-                           {"aces", io::ToneMap::aces},
-                           {"agx", io::ToneMap::agx}},
-                          "What a PNG's colours go through [srgb]");
+  add_choice<io::ToneMap>(
+      command, "--tonemap", [&a](io::ToneMap map) { a.write.tone_map = map; },
+      {{"none", io::ToneMap::none},
+       {"srgb", io::ToneMap::srgb},
+       {"aces", io::ToneMap::aces},
+       {"agx", io::ToneMap::agx}},
+      "What a PNG's colours go through [srgb]");
   command
       .add_option_function<std::vector<std::string>>(
           "--aov", [&a](const std::vector<std::string>& names) { choose_aovs(a, names); },
@@ -152,21 +168,64 @@ void add_image_options(CLI::App& command, RenderArguments& a) {
   type_flag("--float", io::PixelType::single, "32-bit EXR")->excludes(half);
 }
 
+void add_part_options(CLI::App& command, RenderArguments& a) {
+  CLI::Option* crop = command
+                          .add_option_function<std::string>(
+                              "--crop", [&a](const std::string& text) { a.crop = parse_crop(text); },
+                              "Render only this part of the image; also X0,Y0,X1,Y1 (X1 and Y1 are beyond it)")
+                          ->type_name("WxH+X+Y");
+  CLI::Option* tile =
+      command
+          .add_option_function<std::string>(
+              "--tile", [&a](const std::string& text) { choose_tile(a, text); },
+              "Render only tile I, from 0, of N equal ones, to name.tileIofN.exr; 'umbrix merge' puts them together")
+          ->type_name("I/N")
+          ->excludes(crop);
+  command
+      .add_option_function<std::string>(
+          "--pixel", [&a](const std::string& text) { choose_pixel(a, text); },
+          "Render only this pixel and print its channels")
+      ->type_name("X,Y")
+      ->excludes(crop)
+      ->excludes(tile);
+}
+
+void add_again_options(CLI::App& command, RenderArguments& a) {
+  CLI::Option* overwrite = command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
+  CLI::Option* skip =
+      command.add_flag("--skip-existing", a.skip_existing, "Leave images that exist, render those that are missing")
+          ->excludes(overwrite);
+  command
+      .add_flag("--resume", a.resume,
+                "Leave images that are whole and of this very job, render the others, going on from checkpoints")
+      ->excludes(overwrite)
+      ->excludes(skip);
+  add_duration(
+      command, "--checkpoint", [&a](double seconds) { a.checkpoints.interval = seconds; },
+      "Keep what is done of a frame in FILE.part: this often, on SIGUSR1, and when interrupted");
+  add_duration(
+      command, "--time-limit", [&a](double seconds) { a.checkpoints.time_limit = seconds; },
+      "End with code 5 after this time, with a checkpoint");
+  command.add_flag("--create-dir", a.create_folders, "Make missing folders of the outputs");
+  command.add_flag("-n,--dry-run", a.dry_run, "Check everything and say what would be rendered");
+}
+
 void add_tracing_options(CLI::App& command, RenderArguments& a) {
   command
       .add_option_function<std::string>(
           "--kernel", [&a](const std::string& name) { choose_kernel(a, name); },
           "How the tree is walked (see 'umbrix kernels'); changes time, never the picture [auto]")
       ->type_name("NAME");
-  add_choice<BuildQuality>(command, "--build-quality", a.build_quality,
-                           {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}},
-                           "How much time the tree may take [high]");
-  add_choice<render::Instancing>(command, "--instances", a.instancing,
-                                 {{"auto", render::Instancing::automatic},
-                                  {"flatten", render::Instancing::flatten},
-                                  {"share", render::Instancing::share}},
-                                 "Whether instances share their mesh: takes little memory and more time, and never "
-                                 "changes the picture; auto: in large scenes [auto]");
+  add_choice<BuildQuality>(
+      command, "--build-quality", [&a](BuildQuality quality) { a.build_quality = quality; },
+      {{"fast", BuildQuality::fast}, {"high", BuildQuality::high}}, "How much time the tree may take [high]");
+  add_choice<render::Instancing>(
+      command, "--instances", [&a](render::Instancing instancing) { a.instancing = instancing; },
+      {{"auto", render::Instancing::automatic},
+       {"flatten", render::Instancing::flatten},
+       {"share", render::Instancing::share}},
+      "Whether instances share their mesh: takes little memory and more time, and never changes the picture; auto: in "
+      "large scenes [auto]");
   command
       .add_option_function<std::string>(
           "--simd",
@@ -183,12 +242,7 @@ void add_tracing_options(CLI::App& command, RenderArguments& a) {
 }
 
 void add_talking_options(CLI::App& command, RenderArguments& a) {
-  add_choice<ProgressStyle>(command, "--progress", a.progress,
-                            {{"auto", ProgressStyle::automatic},
-                             {"bar", ProgressStyle::bar},
-                             {"lines", ProgressStyle::lines},
-                             {"none", ProgressStyle::none}},
-                            "On stderr; auto: a bar on a terminal, else lines [auto]");
+  add_progress_option(command, a.progress);
   command
       .add_option("--stats", a.stats, "Write what was done as JSON; '-': to stdout. Counts work, so tracing is slower")
       ->type_name("FILE");
@@ -200,9 +254,24 @@ void add_talking_options(CLI::App& command, RenderArguments& a) {
   command.add_flag("-v,--verbose", a.verbose, "Also what in the scene is ignored")->excludes(quiet);
 }
 
+/// What is wrong with options that are right for themselves.
+void check_together(const RenderArguments& a) {
+  if (a.outputs.empty() && a.heat_maps.empty() && !a.print_pixel) {
+    throw CLI::RequiredError("--output or --heat-map or --pixel");
+  }
+  if (!a.tile) return;
+  if (!a.heat_maps.empty()) reject("--tile: a --heat-map shows a whole frame");
+  for (const std::string& path : a.outputs) {
+    if (!has_extension(path, ".exr")) {
+      reject(fmt::format("--tile: {}: only .exr keeps where in the frame a tile is", path));
+    }
+  }
+}
+
 }  // namespace
 
 void add_render_options(CLI::App& command, RenderArguments& a) {
+  add_config_option(command);
   command.add_option("scene", a.scene, "A glTF 2.0 file, .gltf or .glb")->required()->type_name("SCENE");
   command.add_option("-o,--output", a.outputs, "Image to write, .exr (linear) or .png (sRGB); may be repeated")
       ->allow_extra_args(false)
@@ -211,16 +280,15 @@ void add_render_options(CLI::App& command, RenderArguments& a) {
   command.add_option("--camera", a.camera, "The scene's camera, by name or number from 0 [0]")->type_name("NAME|N");
   add_sequence_options(command, a);
   add_image_options(command, a);
+  add_part_options(command, a);
   add_heat_map_options(command, a);
   add_tracing_options(command, a);
-  CLI::Option* overwrite = command.add_flag("--overwrite", a.write.overwrite, "Replace files that exist");
-  command.add_flag("--skip-existing", a.skip_existing, "Leave images that exist, render those that are missing")
-      ->excludes(overwrite);
-  command.add_flag("--create-dir", a.create_folders, "Make missing folders of the outputs");
-  command.add_flag("-n,--dry-run", a.dry_run, "Check everything and say what would be rendered");
+  add_again_options(command, a);
   add_talking_options(command, a);
-  command.callback([&a] {
-    if (a.outputs.empty() && a.heat_maps.empty()) throw CLI::RequiredError("--output or --heat-map");
+  command.callback([&command, &a] {
+    check_together(a);
+    if (a.resume) a.write.overwrite = a.checkpoints.resume = true;
+    a.picture_options = picture_options(command);
   });
 }
 

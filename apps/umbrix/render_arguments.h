@@ -8,18 +8,17 @@
 #include <string>
 #include <vector>
 
+#include "checkpoints.h"
+#include "frame_size.h"
 #include "memory_limit.h"
 #include "progress.h"
 #include "render/heat_map/heat_map.h"
 #include "render/render.h"
+#include "tile.h"
 #include "umbrix/io/image_file.h"
 #include "umbrix/scene.h"
 
 namespace umbrix::app {
-
-struct Size {
-  int width = 0, height = 0;
-};
 
 /// An AOV to be drawn, and the PNG it goes to.
 struct HeatMapFile {
@@ -35,9 +34,11 @@ struct RenderArguments {
   std::string camera;                ///< name or number; empty: the first, or the setup's
   std::vector<int> frames;           ///< empty: a still
   double fps = 24;
-  std::string animation;     ///< name or number; empty: all
-  std::optional<Size> size;  ///< none: 720 rows in the camera's aspect
-  std::optional<render::Crop> crop;
+  std::string animation;          ///< name or number; empty: all
+  std::optional<Size> size;          ///< none: 720 rows in the camera's aspect
+  std::optional<render::Crop> crop;  ///< or the one pixel
+  std::optional<Tile> tile;          ///< not beside a crop
+  bool print_pixel = false;          ///< of a crop of one pixel
   std::uint32_t samples = 1;
   std::uint32_t light_samples = 1;
   std::uint32_t bounces = 0;
@@ -57,13 +58,19 @@ struct RenderArguments {
   int threads = 0;                                      ///< 0: all that are allowed
   std::uint64_t memory_limit = default_memory_limit();  ///< bytes; 0: none
   bool skip_existing = false;
+  bool resume = false;  ///< and `write.overwrite`
+  CheckpointOptions checkpoints;
   bool create_folders = false;
   bool dry_run = false;
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
-  std::string stats;  ///< file, "-" for stdout, or empty
+  std::string stats;            ///< file, "-" for stdout, or empty
+  std::string picture_options;  ///< see job_hash.h
 };
+
+/// Are outputs that exist no reason to refuse?
+inline bool may_exist(const RenderArguments& a) { return a.write.overwrite || a.skip_existing; }
 
 /// Adds all options to the sub-command; parsing fills `arguments`.
 void add_render_options(CLI::App& command, RenderArguments& arguments);

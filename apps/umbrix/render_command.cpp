@@ -11,6 +11,7 @@
 #include "frame_loop.h"
 #include "frame_plan.h"
 #include "heat_map_files.h"
+#include "job_hash.h"
 #include "memory_guard.h"
 #include "memory_plan.h"
 #include "message.h"
@@ -47,9 +48,12 @@ Status describe_plan(const RenderJob& job) {
   std::string text = fmt::format("{}: {} triangles, {} lights, {}x{} pixels, {} samples, about {} MB of memory\n",
                                  printable(job.scene.path), job.scene.instanced_triangles(), job.view.lights.size(),
                                  job.size.width, job.size.height, job.arguments.samples, plan_memory(job).peak() >> 20);
-  const std::string frames = job.arguments.frames.empty() ? "" : fmt::format(", {} frames", job.frames.size());
-  for (const std::vector<std::string>& list : {job.arguments.outputs, heat_map_files(job.arguments.heat_maps)}) {
-    for (const std::string& path : list) text += fmt::format("would write {}{}\n", printable(path), frames);
+  const RenderArguments& a = job.arguments;
+  const std::string frames = a.frames.empty() ? "" : fmt::format(", {} frames", job.frames.size());
+  for (const std::vector<std::string>& list : {a.outputs, heat_map_files(a.heat_maps)}) {
+    for (const std::string& path : list) {
+      text += fmt::format("would write {}{}\n", printable(a.tile ? path_of_tile(path, *a.tile) : path), frames);
+    }
   }
   return print_result(text);
 }
@@ -62,6 +66,32 @@ io::LoadLimits load_limits(const RenderArguments& a) {
   return limits;
 }
 
+/// The part of the frame that is rendered: all, a crop or pixel, or a tile.
+Status choose_window(RenderJob& job) {
+  const RenderArguments& a = job.arguments;
+  job.window = a.crop;
+  if (a.tile) {
+    job.window.emplace();
+    if (Status status = tile_window(job.size, *a.tile, *job.window); !status) return status;
+  }
+  const Status status = render::check_options(render_options(job));
+  if (status.ok()) return {};
+  // Other numbers are within their ranges by now.
+  const char* const flag = a.tile ? "--tile" : a.print_pixel ? "--pixel" : a.crop ? "--crop" : "--size";
+  return {status.code(), fmt::format("{}: {}", flag, status.message())};
+}
+
+/// Leaves out what need not be rendered, which for --resume depends on what would be.
+Status choose_frames(RenderJob& job) {
+  const RenderArguments& a = job.arguments;
+  if (Status status = hash_inputs(job, job.inputs_hash); !status) return status;
+  job.pixels_hash = pixel_hash(job);
+  if (a.print_pixel) return {};
+  if (a.skip_existing) skip_existing(job);
+  if (a.resume) skip_done(job);
+  return {};
+}
+
 /// Reads the inputs and checks all that can be checked before work begins.
 Status load(RenderJob& job) {
   const Stopwatch watch;
@@ -72,18 +102,21 @@ Status load(RenderJob& job) {
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
   if (Status status = io::load_scene(a.scene, job.scene, load_limits(a), a.animation); !status) return status;
-  if (Status status = choose_view(job.scene, a.setup, a.camera, a.mesh_lights, job.view, job.origin); !status) {
+  const ViewChoice choice = {a.setup, a.camera, a.mesh_lights};
+  if (Status status = choose_view(job.scene, choice, job.view, job.origin); !status) {
     return status;
   }
   if (Status status = place_cameras(job); !status) return status;
   job.size = frame_size(a, job.view.camera);
-  if (Status status = render::check_options(render_options(job)); !status) return status;
+  if (Status status = choose_window(job); !status) return status;
   if (Status status = check_memory(job); !status) return status;
   if (a.create_folders && !a.dry_run) {
     if (Status status = create_output_folders(a); !status) return status;
     if (Status status = check_outputs(a, job.frames); !status) return status;
   }
-  if (a.skip_existing) skip_existing(job);
+  if (!a.dry_run) {
+    if (Status status = choose_frames(job); !status) return status;
+  }
   job.stats.lights.resize(job.view.lights.size());
   job.seconds.load = watch.seconds();
   return {};
@@ -107,11 +140,12 @@ Status write_report(const RenderJob& job) {
   // A run that is repeated and finds all done keeps the report of the one that did it.
   std::error_code error;
   if (job.frames.empty() && std::filesystem::exists(a.stats, error)) return {};
-  return io::write_text(a.stats, stats_text(job), a.write.overwrite || a.skip_existing);
+  return io::write_text(a.stats, stats_text(job), may_exist(a));
 }
 
 Status run(const RenderArguments& a) {
   RenderJob job(a);
+  Checkpoints checkpoints(a.checkpoints, a.quiet);
   limit_memory(a.memory_limit);
   if (Status status = load(job); !status) return status;
   if (a.dry_run) return describe_plan(job);
@@ -122,7 +156,7 @@ Status run(const RenderArguments& a) {
     if (status.ok()) status = build_world(job);
     if (!status) return;
     warn(job);
-    status = render_frames(job);
+    status = render_frames(job, checkpoints);
   };
   if (!job.frames.empty()) render::with_threads(job.threads, work);
   if (status.ok()) status = write_report(job);

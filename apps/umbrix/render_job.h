@@ -24,6 +24,7 @@ struct Frame {
   io::Camera camera;
   std::vector<std::string> outputs;  ///< images
   std::vector<HeatMapFile> heat_maps;
+  std::string checkpoint;  ///< file for its finished tiles
 };
 
 /// What became of one frame.
@@ -42,11 +43,14 @@ struct RenderJob {
 
   const RenderArguments& arguments;
   io::SceneFile scene;
-  render::View view;          ///< the camera at rest
-  ViewOrigin origin;          ///< of the view
-  std::vector<Frame> frames;  ///< to render: what is asked for, but what is there already
-  std::size_t skipped = 0;    ///< frames that are there already
-  Size size;                  ///< of a frame
+  render::View view;                   ///< the camera at rest
+  ViewOrigin origin;                   ///< of the view
+  std::string inputs_hash;             ///< of scene and setup, see job_hash.h
+  std::string pixels_hash;             ///< of all that the frames' floats depend on
+  std::vector<Frame> frames;           ///< to render: what is asked for, but what is there already
+  std::size_t skipped = 0;             ///< frames that are there already
+  Size size;                           ///< of a frame
+  std::optional<render::Crop> window;  ///< the part of it to render: crop, pixel or tile
   int threads = 1;
   render::World world;
   std::size_t trees_built = 0;

@@ -22,30 +22,30 @@ Status find_camera(const io::SceneFile& scene, const std::string& wanted, io::Ca
     out = scene.cameras[number];
     return {};
   }
-  return {StatusCode::invalid_argument, fmt::format("{}: there is no camera '{}'; {}", scene.path, wanted,
+  return {StatusCode::invalid_argument, fmt::format("{}: --camera: there is no camera '{}'; {}", scene.path, wanted,
                                                     names.empty() ? "the file has none" : "the file has " + names)};
 }
 
 }  // namespace
 
-Status choose_view(const io::SceneFile& scene, const std::string& setup_path, const std::string& camera,
-                   bool mesh_lights, render::View& view, ViewOrigin& origin) {
+Status choose_view(const io::SceneFile& scene, const ViewChoice& choice, render::View& view, ViewOrigin& origin) {
   io::Setup setup;
   origin.camera_file = scene.path;
-  if (!setup_path.empty()) {
-    if (Status status = io::load_setup(setup_path, scene, setup); !status) return status;
+  if (!choice.setup.empty()) {
+    if (Status status = io::load_setup(choice.setup, scene, setup); !status) return status;
   }
-  if (!camera.empty()) {
-    if (Status status = find_camera(scene, camera, view.camera); !status) return status;
+  if (!choice.camera.empty()) {
+    if (Status status = find_camera(scene, choice.camera, view.camera); !status) return status;
   } else if (setup.camera) {
     view.camera = *setup.camera;
-    origin.camera_file = setup_path;
+    origin.camera_file = choice.setup;
   } else {
     view.camera = scene.cameras.empty() ? io::framing_camera(scene) : scene.cameras.front();
   }
   origin.scene_lights = setup.lights.empty();
+  origin.setup_files = setup.files;
   view.lights = setup.lights.empty() ? scene.lights : setup.lights;
-  if (mesh_lights) {
+  if (choice.mesh_lights) {
     for (io::Light& light : io::emissive_lights(scene)) view.lights.push_back(std::move(light));
   }
   if (view.lights.empty()) view.lights = io::default_lights(scene, view.camera);

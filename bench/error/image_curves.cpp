@@ -10,9 +10,9 @@
 #include <memory>
 #include <numeric>
 
-#include "error/image_metrics.h"
 #include "error/ray_rows.h"
 #include "error/statistics.h"
+#include "render/image_metrics.h"
 #include "render/render.h"
 #include "render/threads.h"
 #include "render/vec.h"
@@ -85,7 +85,7 @@ Status render_image(Studio& studio, const ImageCurveOptions& options, std::uint3
 }
 
 /// The mean of images of as many rays as one can have: at least as many in all as the options ask for.
-Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64_t first_seed, Rgb& out,
+Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64_t first_seed, render::RgbValues& out,
                    std::uint64_t& samples) {
   const std::uint32_t most = std::min(options.reference, render::kMostLightSamples);
   const std::uint32_t images = (options.reference + most - 1) / most;
@@ -95,7 +95,7 @@ Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64
     std::uint64_t rays = 0;
     if (Status status = render_image(studio, options, most, first_seed + i, nullptr, image, rays); !status)
       return status;
-    const Rgb rgb = rgb_of(image);
+    const render::RgbValues rgb = render::rgb_of(image);
     out.resize(rgb.size());
     for (std::size_t k = 0; k < rgb.size(); ++k) out[k] += rgb[k] / images;
   }
@@ -103,18 +103,18 @@ Status render_half(Studio& studio, const ImageCurveOptions& options, std::uint64
 }
 
 struct Reference {
-  Rgb rgb;
-  ImageError noise;
+  render::RgbValues rgb;
+  render::ImageError noise;
   std::uint64_t samples = 0;
 };
 
 Status render_reference(Studio& studio, const ImageCurveOptions& options, Reference& out) {
   constexpr std::uint64_t kSeeds[] = {1'000'000, 2'000'000};  // far from those of the images
-  Rgb halves[2];
+  render::RgbValues halves[2];
   for (std::size_t i = 0; i < 2; ++i) {
     if (Status status = render_half(studio, options, kSeeds[i], halves[i], out.samples); !status) return status;
   }
-  out.noise = noise_of_mean(halves[0], halves[1]);
+  out.noise = render::noise_of_mean(halves[0], halves[1]);
   out.rgb.resize(halves[0].size());
   for (std::size_t i = 0; i < out.rgb.size(); ++i) out.rgb[i] = (halves[0][i] + halves[1][i]) / 2;
   return {};
@@ -127,7 +127,7 @@ Status keep_image(const ImageCurveOptions& options, const std::string& name, io:
   return io::write_image(fmt::format("{}/{}.png", options.keep, name), image, write);
 }
 
-Status keep_reference(const ImageCurveOptions& options, const std::string& scene, const Rgb& rgb) {
+Status keep_reference(const ImageCurveOptions& options, const std::string& scene, const render::RgbValues& rgb) {
   io::Image image;
   image.width = image.height = options.size;
   image.channels = {"R", "G", "B"};
@@ -137,7 +137,7 @@ Status keep_reference(const ImageCurveOptions& options, const std::string& scene
 
 /// The images of one number of samples.
 struct Point {
-  std::vector<ImageError> errors;            ///< of each seed
+  std::vector<render::ImageError> errors;    ///< of each seed
   std::vector<std::vector<double>> seconds;  ///< of each kernel and seed
   std::uint64_t shadow_rays = 0;             ///< of the last image
 };
@@ -165,32 +165,32 @@ Status measure_point(Studio& studio, const ImageCurveOptions& options, const std
                                                   studio.tracings[i].name, studio.tracings[0].name, seed, samples)};
       }
     }
-    out.errors.push_back(image_error(rgb_of(first), reference.rgb));
+    out.errors.push_back(render::image_error(render::rgb_of(first), reference.rgb));
     if (Status status = keep_image(options, fmt::format("{}-{}-{}", scene, samples, seed), first); !status)
       return status;
   }
   return {};
 }
 
-std::vector<double> each(const std::vector<ImageError>& errors, double ImageError::*measure) {
+std::vector<double> each(const std::vector<render::ImageError>& errors, double render::ImageError::*measure) {
   std::vector<double> values;
-  for (const ImageError& error : errors) values.push_back(error.*measure);
+  for (const render::ImageError& error : errors) values.push_back(error.*measure);
   return values;
 }
 
 nlohmann::json point_json(const Studio& studio, std::uint32_t samples, const Reference& reference, const Point& point) {
-  const auto spread = [&](double ImageError::*measure) {
+  const auto spread = [&](double render::ImageError::*measure) {
     return estimate_json(median_and_quartiles(each(point.errors, measure)));
   };
   const double common = reference.noise.mean_difference * reference.noise.mean_difference;
   nlohmann::json json = {
       {"samples", samples},
       {"shadow_rays", point.shadow_rays},
-      {"rmse", spread(&ImageError::rmse)},
-      {"rmse_trimmed", spread(&ImageError::rmse_trimmed)},
-      {"relmse", spread(&ImageError::relmse)},
-      {"relmse_trimmed", spread(&ImageError::relmse_trimmed)},
-      {"bias", estimate_json(mean_interval(each(point.errors, &ImageError::mean_difference), common))}};
+      {"rmse", spread(&render::ImageError::rmse)},
+      {"rmse_trimmed", spread(&render::ImageError::rmse_trimmed)},
+      {"relmse", spread(&render::ImageError::relmse)},
+      {"relmse_trimmed", spread(&render::ImageError::relmse_trimmed)},
+      {"bias", estimate_json(mean_interval(each(point.errors, &render::ImageError::mean_difference), common))}};
   for (std::size_t i = 0; i < studio.tracings.size(); ++i) {
     json["times"].push_back(
         {{"kernel", studio.tracings[i].name}, {"seconds", estimate_json(median_and_quartiles(point.seconds[i]))}});
@@ -219,7 +219,7 @@ Status measure_images(const workload::Geometry& geometry, const io::Camera& came
     Point point;
     if (Status status = measure_point(studio, options, geometry.name, samples, reference, point); !status)
       return status;
-    for (const ImageError& error : point.errors) smallest = std::min(smallest, error.rmse);
+    for (const render::ImageError& error : point.errors) smallest = std::min(smallest, error.rmse);
     points.push_back(point_json(studio, samples, reference, point));
   }
   const io::Light& shining = studio.view.lights[0];

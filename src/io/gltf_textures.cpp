@@ -105,6 +105,7 @@ void convert_images(Conversion& conversion) {
       out.encoded = shared(in.image);
     } else {
       out.file = uri_path(conversion.scene.path, in.uri, label, conversion.limits);
+      conversion.scene.files.push_back(out.file);
     }
     conversion.scene.images.push_back(std::move(out));
   }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <climits>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -56,6 +58,9 @@ const char* fault_of(const Image& image) {
   if (image.pixels.size() % image.channels.size() != 0 || image.pixels.size() / image.channels.size() != count) {
     return "the image's pixels do not match its size";
   }
+  if (image.frame_width < 0 || image.frame_height < 0 || (image.frame_width > 0) != (image.frame_height > 0)) {
+    return "the image's frame is empty";
+  }
   for (const auto& matrix : image.matrices) {
     if (matrix.second.size() != 16) return "a matrix of the image has not 16 values";
   }
@@ -91,13 +96,27 @@ Status write_standard_output(const std::string& text) {
   return error == 0 ? Status() : failed("standard output", reason_of(error));
 }
 
+int place_in_frame(int begin, int frame_begin) {
+  const std::int64_t place = std::int64_t{begin} - frame_begin;
+  if (place < INT_MIN || place > INT_MAX) detail::bad_input("the data window is too far from the display window");
+  return static_cast<int>(place);
+}
+
 void read_checked(const std::string& path, Image& out) {
   const auto input = detail::open_image(path);
   const OIIO::ImageSpec& spec = input->spec();
   Image image;
   image.width = spec.width;
   image.height = spec.height;
+  image.x = place_in_frame(spec.x, spec.full_x);
+  image.y = place_in_frame(spec.y, spec.full_y);
+  image.frame_width = spec.full_width;
+  image.frame_height = spec.full_height;
   image.channels = spec.channelnames;
+  const bool half = spec.format == OIIO::TypeDesc::HALF ||
+                    std::any_of(spec.channelformats.begin(), spec.channelformats.end(),
+                                [](const OIIO::TypeDesc& type) { return type == OIIO::TypeDesc::HALF; });
+  image.pixel_type = half ? PixelType::half : PixelType::single;
   image.pixels.resize(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                       static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "io/load_error.h"
 
@@ -27,8 +28,16 @@ struct File {
   }
 };
 
+// Of the OpenedFiles of this thread.
+thread_local std::vector<std::string>* opened = nullptr;
+
+void note_opened(const std::string& path) {
+  if (opened && std::find(opened->begin(), opened->end(), path) == opened->end()) opened->push_back(path);
+}
+
 // Non-blocking, so that a pipe nobody writes to cannot hang the program.
 void open_regular(const std::string& path, File& file) {
+  note_opened(path);
   do {
     file.number = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   } while (file.number < 0 && errno == EINTR);
@@ -66,6 +75,10 @@ bool lies_within(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
+OpenedFiles::OpenedFiles(std::vector<std::string>& paths) noexcept : before_(std::exchange(opened, &paths)) {}
+
+OpenedFiles::~OpenedFiles() { opened = before_; }
+
 std::string path_beside(const std::string& from, const std::string& name, bool stay_inside, const std::string& label,
                         const char* kind) {
   if (name.find('\0') != std::string::npos) bad_input("{}: the file name has a zero byte", label);
@@ -95,6 +108,17 @@ std::vector<unsigned char> read_file(const std::string& path, std::uint64_t limi
   if (file.bytes == 0) bad_input("is empty");
   if (file.bytes > limit) over_limit("has {} bytes, the limit is {}", file.bytes, limit);
   return read_bytes(file, file.bytes);
+}
+
+void read_in_pieces(const std::string& path, const std::function<void(const unsigned char*, std::size_t)>& take) {
+  constexpr std::uint64_t kPiece = 1u << 20;
+  File file;
+  open_regular(path, file);
+  for (std::uint64_t left = file.bytes; left > 0;) {
+    const std::vector<unsigned char> bytes = read_bytes(file, std::min(left, kPiece));
+    take(bytes.data(), bytes.size());
+    left -= bytes.size();
+  }
 }
 
 std::vector<unsigned char> read_start(const std::string& path, std::uint64_t most, std::uint64_t& file_bytes) {

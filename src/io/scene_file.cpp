@@ -9,6 +9,7 @@
 #include "io/gltf_convert.h"
 #include "io/gltf_document.h"
 #include "io/gltf_parse.h"
+#include "io/input_file.h"
 #include "io/load_error.h"
 #include "io/memory_share.h"
 
@@ -57,6 +58,7 @@ std::uint64_t decoded_byte_limit(const LoadLimits& limits) {
 
 void load(const std::string& path, SceneFile& scene, LoadLimits limits, const std::string& animation) {
   limits.decoded_bytes = decoded_byte_limit(limits);
+  const OpenedFiles record(scene.files);
   const tinygltf::Model model = [&] {
     GltfDocument document = read_gltf_document(path, limits);
     const nlohmann::json root = parse_json(document.json, limits);

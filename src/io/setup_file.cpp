@@ -39,6 +39,7 @@ const json& find_entry(const json& root, const std::string& scene_path) {
 }  // namespace
 
 void read_setup(const std::string& path, const SceneFile& scene, const LoadLimits& limits, Setup& out) {
+  const OpenedFiles record(out.files);
   const std::vector<unsigned char> bytes = read_file(path, kMostBytes);
   const json root = parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const json& entry = find_entry(root, scene.path);

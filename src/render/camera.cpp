@@ -53,14 +53,14 @@ std::vector<float> Camera::world_to_camera() const {
                         {forward_, -glm::dot(forward_, eye_)}, {0, 0, 0, 1}));
 }
 
-std::vector<float> Camera::world_to_ndc(double x, double y, double width, double height) const {
+std::vector<float> Camera::world_to_ndc() const {
   const glm::dvec4 right(right_, -glm::dot(right_, eye_));
   const glm::dvec4 up(up_, -glm::dot(up_, eye_));
   const glm::dvec4 depth(forward_, -glm::dot(forward_, eye_));
   const glm::dvec4 w = perspective_ ? depth : glm::dvec4(0, 0, 0, 1);
-  // Pixels are width/2 (1 + right / half_width) across; the window's corner and size come on top.
-  const glm::dvec4 ndc_x = (right * (width_ / 2 / half_width_) + w * (width_ / 2 - x)) / width;
-  const glm::dvec4 ndc_y = (up * (-height_ / 2 / half_height_) + w * (height_ / 2 - y)) / height;
+  // Pixels are width/2 (1 + right / half_width) across.
+  const glm::dvec4 ndc_x = (right * (width_ / 2 / half_width_) + w * (width_ / 2)) / width_;
+  const glm::dvec4 ndc_y = (up * (-height_ / 2 / half_height_) + w * (height_ / 2)) / height_;
   return to_floats(rows(ndc_x, ndc_y, depth, w));
 }
 

@@ -22,9 +22,9 @@ class Camera {
   Ray ray(double x, double y) const;
 
   /// OpenEXR's standard attributes, for row vectors: camera space is left-handed and looks along +z; NDC is (0, 0) at
-  /// the upper left and (1, 1) at the lower right corner of the window (x, y, width, height, in pixels).
+  /// the upper left and (1, 1) at the lower right corner of the frame.
   std::vector<float> world_to_camera() const;
-  std::vector<float> world_to_ndc(double x, double y, double width, double height) const;
+  std::vector<float> world_to_ndc() const;
 
  private:
   Vec3 eye_, right_, up_, forward_;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/pixel_rect.h"
 #include "render/ray_route.h"
 #include "render/vec.h"
 #include "umbrix/io/image_file.h"
@@ -32,13 +33,6 @@ struct CameraSample {
     radiance += light;
     if (over_two_surfaces) indirect += light;
   }
-};
-
-/// A rectangle of pixels.
-struct PixelRect {
-  int x = 0, y = 0, width = 0, height = 0;
-
-  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 /// Gathers the samples of one tile's pixels, in double, and writes each pixel once when it is complete. Samples of a

@@ -211,11 +211,13 @@ void prepare_image(const Frame& frame, io::Image& image) {
   image = io::Image();
   image.width = frame.window.width;
   image.height = frame.window.height;
+  image.x = frame.window.x;
+  image.y = frame.window.y;
+  image.frame_width = frame.options.width;
+  image.frame_height = frame.options.height;
   for (const char* name : channel_names(frame.aovs)) image.channels.emplace_back(name);
   image.pixels.resize(frame.window.size() * image.channels.size());
-  image.matrices = {{"worldToCamera", frame.camera.world_to_camera()},
-                    {"worldToNDC", frame.camera.world_to_ndc(frame.window.x, frame.window.y, frame.window.width,
-                                                             frame.window.height)}};
+  image.matrices = {{"worldToCamera", frame.camera.world_to_camera()}, {"worldToNDC", frame.camera.world_to_ndc()}};
 }
 
 FrameView frame_view(const View& view, const RenderOptions& options) {
@@ -245,23 +247,29 @@ void render_tiles(const Frame& frame, io::Image& image, RenderStats& stats) {
   const std::vector<PixelRect> tiles = cut_into_tiles(frame.window);
   const std::vector<SampleRange> passes = plan_passes(frame.options);
   std::vector<std::optional<TileFilm>> films(tiles.size());  // from the first pass to the last
+  std::vector<std::uint8_t> finished(tiles.size());
+  TileStore* const store = frame.options.store;
+  if (store) store->begin(tiles, image, finished);
   std::mutex mutex;
-  std::size_t done = 0;
+  auto done = passes.size() * static_cast<std::size_t>(std::count(finished.begin(), finished.end(), std::uint8_t{1}));
   for (const SampleRange& pass : passes) {
+    const bool last = pass.end == frame.options.samples;
     tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
-      if (frame.cancelled()) return;
+      if (frame.cancelled() || finished[i]) return;
       TileRenderer renderer(frame);
       if (!films[i]) films[i].emplace(frame.aovs, tiles[i]);
       renderer.render(tiles[i], pass, *films[i]);
       films[i]->write(frame.window, image);
-      const bool last = pass.end == frame.options.samples;
       if (last) films[i].reset();
       const std::lock_guard<std::mutex> lock(mutex);
+      // What was cancelled has not all of its samples.
+      if (frame.cancelled()) return;
       stats += renderer.stats();
       ++done;
+      if (store && last) store->finish(i);
       if (frame.options.progress) frame.options.progress(done, tiles.size() * passes.size());
     });
-    if (pass.end < frame.options.samples && !frame.cancelled()) frame.options.preview(image, pass.end);
+    if (!last && !frame.cancelled()) frame.options.preview(image, pass.end);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "render/pixel_filter.h"
 #include "render/render_stats.h"
+#include "render/tile_store.h"
 #include "render/world.h"
 #include "umbrix/frame.h"
 #include "umbrix/io/image_file.h"
@@ -50,6 +51,7 @@ struct RenderOptions {
   /// If set, the image is made in passes over all tiles, each with as many samples as all before it together, and shown
   /// after each but the last. Pixels are the same; memory is that of the image in double more.
   std::function<void(const io::Image& image, std::uint32_t samples)> preview;
+  TileStore* store = nullptr;  ///< tiles that it has are not rendered again, and not part of the stats
 };
 
 constexpr std::size_t kMostSampledLights = 8;
@@ -64,6 +66,7 @@ struct AovInfo {
   std::string summary;
   bool heat_map;    ///< make_heat_map draws it
   bool heat_scale;  ///< and by a scale of numbers
+  bool of_tracer;   ///< shows how rays were answered, which depends on kernel and instruction set
 };
 
 /// What RenderOptions::aovs may name.

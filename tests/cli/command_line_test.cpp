@@ -57,11 +57,13 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
       {{"--crop", "4x4+14+0"}, "not within the image"},
       {{"--aov", "normal,colour"}, "'colour'"},
       {{"--tonemap", "filmic"}, "none|srgb"},
+      {{"--filter", "sinc"}, "box|"},
+      {{"--ao-distance", "0"}, "from 1e-30"},
       {{"--kernel", "magic"}, "magic"},
       {{"--simd", "MMX"}, "MMX"},
       {{"--camera", "nose"}, "'eye'"},
       {{"--frobnicate"}, "frobnicate"},
-      {{"-q", "-v"}, "verbose"},
+      {{"-q", "--verbose"}, "verbose"},
       {{"-o", "OUT_AGAIN"}, "twice"},
   };
   for (const Case& c : cases) {
@@ -70,6 +72,9 @@ TEST_F(CommandLine, WrongUsageIsTwoAndSaysWhatIsWrong) {
     const Outcome outcome = render(more);
     EXPECT_EQ(outcome.code, 2) << more[0] << " " << more.back() << ": " << outcome.err;
     EXPECT_TRUE(contains(outcome.err, c.said)) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, more[0]) || contains(outcome.err, "out.exr") ||
+                contains(outcome.err, "--verbose"))
+        << "no flag or file is named: " << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_FALSE(exists("out.exr"));
   }

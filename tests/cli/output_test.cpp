@@ -89,6 +89,28 @@ TEST_F(Output, BytesDependOnNeitherThreadsNorKernelNorInstructionSet) {
   EXPECT_FALSE(read("first.exr") == read("seed.exr"));
 }
 
+TEST_F(Output, FilterSpreadsThePixelsSamples) {
+  ASSERT_EQ(render("box.exr", {"--spp", "4"}).code, 0);
+  ASSERT_EQ(render("same.exr", {"--spp", "4", "--filter", "box"}).code, 0);
+  ASSERT_EQ(render("wide.exr", {"--spp", "4", "--filter", "gaussian"}).code, 0);
+  EXPECT_EQ(image("box.exr").pixels, image("same.exr").pixels);
+  EXPECT_NE(image("box.exr").pixels, image("wide.exr").pixels);
+}
+
+TEST_F(Output, AmbientOcclusionLooksAsFarAsAsked) {
+  ASSERT_EQ(render("far.exr", {"--spp", "16", "--aov", "ao"}).code, 0);
+  ASSERT_EQ(render("near.exr", {"--spp", "16", "--aov", "ao", "--ao-distance", "0.001"}).code, 0);
+  // The upper square is half a unit above the lower one.
+  const auto least = [&](const char* name) {
+    const io::Image picture = image(name);
+    float value = 1;
+    for (int x = 16; x < 48; ++x) value = std::min(value, pixel(picture, x, 17, "ao.Y"));
+    return value;
+  };
+  EXPECT_LT(least("far.exr"), 0.95f);
+  EXPECT_EQ(least("near.exr"), 1);
+}
+
 TEST_F(Output, SizeDefaultsToTheCamerasAspect) {
   ASSERT_EQ(run({"render", path("scene.gltf"), "-q", "-o", path("out.png")}).code, 0);
   EXPECT_EQ(image("out.png").width, 1440);

@@ -45,6 +45,8 @@ void check_arguments(std::vector<std::string> words) {
   promise(std::isfinite(arguments.write.exposure) && std::isfinite(arguments.fps) && arguments.fps > 0,
           "numbers are finite");
   if (arguments.size) promise(arguments.size->width >= 1 && arguments.size->height >= 1, "the size is not empty");
+  if (arguments.tile) promise(arguments.tile->index < arguments.tile->count, "the tile is one of them");
+  promise(!std::isnan(arguments.checkpoints.interval + arguments.checkpoints.time_limit), "times are numbers");
   if (arguments.crop) promise(arguments.crop->x >= 0 && arguments.crop->width >= 1, "the part is not empty");
 }
 

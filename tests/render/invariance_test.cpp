@@ -2,6 +2,7 @@
 // What must not change a picture, and does not by a single bit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "built_scenes.h"
@@ -220,6 +221,60 @@ TEST_F(Invariance, CancelledRenderStops) {
   with_threads(
       1, [&] { EXPECT_EQ(render(world_, clutter_.view, cancelled, unused, stats).code(), StatusCode::cancelled); });
   EXPECT_EQ(tiles, 1u);
+}
+
+/// Keeps tiles in memory, and hands over every other one of those that it was given.
+class HalfStore : public TileStore {
+ public:
+  explicit HalfStore(const io::Image* kept) : kept_(kept) {}
+
+  void begin(const std::vector<PixelRect>& tiles, io::Image& image, std::vector<std::uint8_t>& finished) override {
+    tiles_ = tiles;
+    for (std::size_t i = 0; kept_ && i < tiles.size(); i += 2) {
+      const PixelRect& tile = tiles[i];
+      const std::size_t channels = image.channels.size(), columns = static_cast<std::size_t>(image.width);
+      for (int y = tile.y - image.y; y < tile.y - image.y + tile.height; ++y) {
+        const std::size_t at = static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(tile.x - image.x);
+        std::copy_n(&kept_->pixels[at * channels], static_cast<std::size_t>(tile.width) * channels,
+                    &image.pixels[at * channels]);
+      }
+      finished[i] = 1;
+    }
+  }
+  void finish(std::size_t i) override { finished_.push_back(i); }
+
+  std::vector<PixelRect> tiles_;
+  std::vector<std::size_t> finished_;
+
+ private:
+  const io::Image* kept_;
+};
+
+TEST_F(Invariance, GoesOnFromTilesThatAreKept) {
+  const std::optional<Crop> crops[] = {std::nullopt, Crop{11, 7, 100, 70}};
+  for (const std::optional<Crop>& crop : crops) {
+    RenderOptions whole = options();
+    whole.crop = crop;
+    HalfStore none(nullptr);
+    whole.store = &none;
+    const io::Image first = image(whole);
+    ASSERT_GT(none.tiles_.size(), 8u);
+    EXPECT_EQ(none.finished_.size(), none.tiles_.size());
+
+    HalfStore half(&first);
+    RenderOptions rest = whole;
+    rest.store = &half;
+    std::size_t least = none.tiles_.size(), most = 0;
+    rest.progress = [&](std::size_t done, std::size_t) {
+      least = std::min(least, done);
+      most = std::max(most, done);
+    };
+    expect_same(first, image(rest));
+    for (const std::size_t i : half.finished_) EXPECT_EQ(i % 2, 1u) << "what was there is rendered again";
+    EXPECT_EQ(half.finished_.size(), none.tiles_.size() / 2);
+    EXPECT_EQ(least, (none.tiles_.size() + 1) / 2 + 1) << "progress counts what was there";
+    EXPECT_EQ(most, none.tiles_.size());
+  }
 }
 
 TEST_F(Invariance, ImpossibleOptionsAreRefused) {

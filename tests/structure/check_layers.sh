@@ -14,7 +14,7 @@ index        public,core,tree,index              tbb,glm,boost,hwy
 kernels      public,core,tree,index,kernels      tbb,glm,boost,hwy
 frame        public,core,tree,index,kernels,frame  tbb,glm,boost,hwy
 scene        public,core,tree,index,kernels,frame,scene  tbb,glm,boost,hwy
-io           public,public_io,io                 tiny_gltf.h,tinygltf,OpenImageIO,nlohmann,fmt,glm,tbb,draco,meshoptimizer.h,stb_image.h,stb_image_write.h
+io           public,public_io,io                 tiny_gltf.h,tinygltf,OpenImageIO,nlohmann,fmt,glm,tbb,xxhash.h,draco,meshoptimizer.h,stb_image.h,stb_image_write.h
 render       public,public_io,render             tbb,glm,fmt,nlohmann
 apps         public,public_io,render,apps        CLI,fmt,nlohmann,tbb,glm
 bench        public,public_io,render,bench,core,tree,index,kernels  CLI,fmt,nlohmann,tbb,glm,hwy,embree3,embree4,boost,cairo.h,librsvg
@@ -59,7 +59,7 @@ FNR == 1 {
   sub(/^[^"<]*["<]/, "", name)
   sub(/[">].*/, "", name)
   if (name !~ /[\/.]/) next  # the C++ standard library
-  if (layer !~ /^public/ && name ~ /^(immintrin|xmmintrin|unistd|fcntl|signal|sched|time|malloc)\.h$|^sys\//) next  # the system
+  if (layer !~ /^public/ && name ~ /^(immintrin|xmmintrin|unistd|fcntl|semaphore|signal|sched|time|malloc)\.h$|^sys\//) next  # the system
   includes++
   wanted = layer_of(name)
   if (wanted in known) allowed = (layer, wanted) in inside

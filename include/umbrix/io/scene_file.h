@@ -143,6 +143,7 @@ class SceneMotion;
 /// What a file holds, after all checks, at rest.
 struct SceneFile {
   std::string path;
+  std::vector<std::string> files;  ///< all that it is made of: this one, and those that it names
   std::string generator;
   std::vector<Material> materials;
   std::vector<Texture> textures;
@@ -226,7 +227,8 @@ UMBRIX_API Status describe_image(const SceneFile& scene, const TextureImage& ima
 /// Camera and lights from outside the scene file.
 struct Setup {
   std::optional<Camera> camera;
-  std::vector<Light> lights;  ///< empty: keep the file's
+  std::vector<Light> lights;       ///< empty: keep the file's
+  std::vector<std::string> files;  ///< all that were opened for it
 };
 
 /// Reads a setup file: an object {"camera": {...}, "lights": [...]}, or an array of such objects with "file" or "name"

@@ -25,7 +25,8 @@ std::vector<AovInfo> known_aovs() {
   std::vector<AovInfo> infos;
   for (const Aov* aov : kTable) {
     const HeatMapStyle style = aov->heat_map;
-    infos.push_back({aov->name, aov->summary, style != HeatMapStyle::none, style == HeatMapStyle::scale});
+    infos.push_back({aov->name, aov->summary, style != HeatMapStyle::none, style == HeatMapStyle::scale,
+                     aov->counts_work || style == HeatMapStyle::shares});
   }
   return infos;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error/image_metrics.h"
+#include "render/image_metrics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numeric>
 
-namespace umbrix::bench {
+namespace umbrix::render {
 namespace {
 
 constexpr double kTrimmed = 0.001;         // of the pixels
@@ -24,7 +24,7 @@ double mean_without_largest(std::vector<double> values) {
 }
 
 /// Both measures of differences from a reference.
-ImageError measure(const std::vector<double>& difference, const Rgb& reference) {
+ImageError measure(const std::vector<double>& difference, const RgbValues& reference) {
   const double average = mean(reference), epsilon = kRelativeEpsilon * average * average;
   std::vector<double> squared(difference.size() / 3), relative(squared.size());
   for (std::size_t pixel = 0; pixel < squared.size(); ++pixel) {
@@ -40,9 +40,9 @@ ImageError measure(const std::vector<double>& difference, const Rgb& reference) 
 
 }  // namespace
 
-Rgb rgb_of(const io::Image& image) {
+RgbValues rgb_of(const io::Image& image) {
   const std::size_t channels = image.channels.size();
-  Rgb rgb;
+  RgbValues rgb;
   rgb.reserve(image.pixels.size() / channels * 3);
   for (std::size_t i = 0; i < image.pixels.size(); i += channels) {
     for (std::size_t k = 0; k < 3; ++k) rgb.push_back(double{image.pixels[i + k]});
@@ -50,22 +50,22 @@ Rgb rgb_of(const io::Image& image) {
   return rgb;
 }
 
-ImageError image_error(const Rgb& image, const Rgb& reference) {
+ImageError image_error(const RgbValues& image, const RgbValues& reference) {
   std::vector<double> difference(image.size());
   std::transform(image.begin(), image.end(), reference.begin(), difference.begin(), std::minus<>());
   return measure(difference, reference);
 }
 
-ImageError noise_of_mean(const Rgb& a, const Rgb& b) {
+ImageError noise_of_mean(const RgbValues& a, const RgbValues& b) {
   // Half the difference has the variance of the mean, of whose expectation it has none.
-  Rgb half(a.size()), middle(a.size());
+  RgbValues half(a.size()), middle(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     half[i] = (a[i] - b[i]) / 2;
     middle[i] = (a[i] + b[i]) / 2;
   }
   ImageError noise = measure(half, middle);
-  noise.mean_difference = noise.rmse / std::sqrt(static_cast<double>(a.size() / 3));
+  noise.mean_difference = noise.rmse / std::sqrt(static_cast<double>(a.size()) / 3);
   return noise;
 }
 
-}  // namespace umbrix::bench
+}  // namespace umbrix::render

@@ -5,13 +5,13 @@
 
 #include "umbrix/io/image_file.h"
 
-namespace umbrix::bench {
+namespace umbrix::render {
 
 /// R, G, B of each pixel, linear.
-using Rgb = std::vector<double>;
+using RgbValues = std::vector<double>;
 
 /// The first three channels of a rendered image.
-Rgb rgb_of(const io::Image& image);
+RgbValues rgb_of(const io::Image& image);
 
 /// How far an image is from its reference.
 struct ImageError {
@@ -23,10 +23,10 @@ struct ImageError {
 };
 
 /// Of two images of the same size, which is not 0.
-ImageError image_error(const Rgb& image, const Rgb& reference);
+ImageError image_error(const RgbValues& image, const RgbValues& reference);
 
 /// The noise of the mean of two independent images, estimated from half their difference: ImageError's measures, with
 /// mean_difference the standard error of the mean over all pixels, as if their noise were independent.
-ImageError noise_of_mean(const Rgb& a, const Rgb& b);
+ImageError noise_of_mean(const RgbValues& a, const RgbValues& b);
 
-}  // namespace umbrix::bench
+}  // namespace umbrix::render
