@@ -11,6 +11,7 @@
 #include "core/exact_test.h"
 #include "core/float_mode.h"
 #include "core/growing_array.h"
+#include "core/mesh_triangles.h"
 #include "core/parallel_for.h"
 #include "core/transform.h"
 #include "index/instance_tree.h"
@@ -31,12 +32,14 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
   detail::GrowingArray<std::uint32_t> kept;
   std::vector<detail::MeshRecord> meshes;
   detail::Box bounds;
+  detail::Box placed_bounds;  ///< without the instances
   detail::TriangleBvh bvh;
   std::optional<detail::LazyTree> tree;  ///< from commit on
   detail::InstanceTree instances;        ///< those that stay instances
   BuildStats stats;
   detail::SceneView view{};
   std::vector<std::shared_ptr<const detail::SideTable>> side_tables;  ///< by the kernel's place in the table
+  std::vector<bool> flattened;  ///< by prototype: whether an instance did not stay one
   bool committed = false;
 
   template <class TriangleAt>
@@ -66,49 +69,6 @@ namespace {
 
 constexpr std::uint64_t kMaxTriangles = 1ull << 29;
 constexpr std::uint64_t kMaxInstances = 1ull << 29;
-
-/// The vertex numbers of one triangle.
-struct Corners {
-  std::uint32_t index[3];
-
-  Corners(const MeshView& mesh, std::size_t triangle) noexcept {
-    const char* const base = reinterpret_cast<const char*>(mesh.indices);
-    for (std::size_t k = 0; k < 3; ++k)
-      index[k] = mesh.indices ? reinterpret_cast<const std::uint32_t*>(base + triangle * mesh.index_stride)[k]
-                              : static_cast<std::uint32_t>(3 * triangle + k);
-  }
-};
-
-detail::Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
-  const float* const p = reinterpret_cast<const float*>(reinterpret_cast<const char*>(mesh.vertices) +
-                                                        static_cast<std::size_t>(index) * mesh.vertex_stride);
-  return {p[0], p[1], p[2]};
-}
-
-detail::Triangle triangle_of(const MeshView& mesh, std::size_t i) noexcept {
-  const Corners corners(mesh, i);
-  return {{vertex(mesh, corners.index[0]), vertex(mesh, corners.index[1]), vertex(mesh, corners.index[2])}};
-}
-
-Status check(const MeshView& mesh) {
-  if (mesh.triangle_count == 0) return {};
-  if (!mesh.vertices || mesh.vertex_count == 0) return {StatusCode::invalid_argument, "mesh: no vertices"};
-  if (mesh.vertex_stride < 12 || mesh.vertex_stride % 4 != 0)
-    return {StatusCode::invalid_argument, "mesh: vertex_stride must be a multiple of 4 and at least 12"};
-  if (mesh.indices && (mesh.index_stride < 12 || mesh.index_stride % 4 != 0))
-    return {StatusCode::invalid_argument, "mesh: index_stride must be a multiple of 4 and at least 12"};
-  if (reinterpret_cast<std::uintptr_t>(mesh.vertices) % 4 != 0 ||
-      reinterpret_cast<std::uintptr_t>(mesh.indices) % 4 != 0)
-    return {StatusCode::invalid_argument, "mesh: vertices and indices must be aligned to 4 bytes"};
-  if (!mesh.indices && mesh.vertex_count / 3 < mesh.triangle_count)
-    return {StatusCode::invalid_argument, "mesh: fewer than three vertices a triangle"};
-  for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i)
-    for (const std::uint32_t index : Corners(mesh, i).index)
-      if (index >= mesh.vertex_count)
-        return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
-                                                  std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
-  return {};
-}
 
 Status check_count(std::uint64_t triangles_so_far, std::uint64_t more) {
   if (triangles_so_far + more > kMaxTriangles) return {StatusCode::resource_limit, "scene: more than 2^29 triangles"};
@@ -158,9 +118,9 @@ Status Scene::add(const MeshView& mesh, std::uint32_t* mesh_id) {
     if (!impl_) impl_ = std::make_unique<Impl>();
     Impl& s = *impl_;
     if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
-    if (Status status = check(mesh); !status) return status;
+    if (Status status = detail::check(mesh); !status) return status;
     if (Status status = check_count(s.triangles.size(), mesh.triangle_count); !status) return status;
-    s.append(mesh.triangle_count, mesh.mask, mesh.opacity, [&](std::size_t i) { return triangle_of(mesh, i); });
+    s.append(mesh.triangle_count, mesh.mask, mesh.opacity, [&](std::size_t i) { return detail::triangle_of(mesh, i); });
     if (mesh_id) *mesh_id = static_cast<std::uint32_t>(s.meshes.size() - 1);
     return {};
   } catch (const std::bad_alloc&) {
@@ -173,11 +133,9 @@ Status Scene::add_prototype(const MeshView& mesh, std::uint32_t* prototype_id) {
     if (!impl_) impl_ = std::make_unique<Impl>();
     Impl& s = *impl_;
     if (s.committed) return {StatusCode::invalid_argument, "scene: already committed"};
-    if (Status status = check(mesh); !status) return status;
+    if (Status status = detail::check(mesh); !status) return status;
     if (Status status = check_count(0, mesh.triangle_count); !status) return status;
-    std::vector<detail::Triangle> triangles(mesh.triangle_count);
-    for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = triangle_of(mesh, i);
-    const std::uint32_t number = s.instances.add_prototype(detail::Prototype(std::move(triangles)));
+    const std::uint32_t number = s.instances.add_prototype(detail::Prototype(detail::triangles_of(mesh)));
     if (prototype_id) *prototype_id = number;
     return {};
   } catch (const std::bad_alloc&) {
@@ -204,6 +162,8 @@ Status Scene::add_instance(const Instance& instance, std::uint32_t* mesh_id) {
     } else {
       s.meshes.pop_back();
       if (Status status = check_count(s.triangles.size(), prototype.triangle_count()); !status) return status;
+      s.flattened.resize(s.instances.prototype_count());
+      s.flattened[instance.prototype] = true;
       s.append(prototype.triangle_count(), instance.mask, instance.opacity,
                [&](std::size_t i) { return detail::placed(instance.to_world, prototype.triangles()[i]); });
     }
@@ -230,6 +190,7 @@ void Scene::Impl::build(const BuildOptions& options) {
                             options.executor);
   stats.triangle_bytes = triangles.size() * sizeof(detail::Triangle);
   instances.build(options.executor);
+  placed_bounds = bounds;
   bounds.extend(instances.bounds());
   stats.box_bytes = bvh.bytes();
   stats.instances = instances.size();
@@ -283,6 +244,30 @@ Status Scene::commit(const BuildOptions& options) {
   } catch (const std::exception& e) {
     impl_.reset();
     return detail::parallel_failure("scene", options.executor, e);
+  }
+}
+
+Status Scene::update(const SceneUpdate& update) {
+  if (!impl_ || !impl_->committed) return {StatusCode::invalid_argument, "scene: not committed"};
+  try {
+    for (std::size_t i = 0; i < update.shape_count; ++i) {
+      const SceneUpdate::Reshape& shape = update.shapes[i];
+      if (Status status = detail::check(shape.mesh); !status) return status;
+      if (Status status = check_count(0, shape.mesh.triangle_count); !status) return status;
+      if (shape.prototype < impl_->flattened.size() && impl_->flattened[shape.prototype])
+        return {StatusCode::invalid_argument, "scene: not all instances of the prototype have stayed such"};
+    }
+    detail::InstanceTree next;
+    if (!impl_->instances.updated(update, next))
+      return {StatusCode::invalid_argument, "scene: the instances cannot be moved so; build a new scene"};
+    impl_->instances = std::move(next);
+    impl_->bounds = impl_->placed_bounds;
+    impl_->bounds.extend(impl_->instances.bounds());
+    return {};
+  } catch (const std::bad_alloc&) {
+    return Status::out_of_memory("scene: out of memory while moving instances");
+  } catch (const std::exception& e) {
+    return detail::parallel_failure("scene", update.executor, e);
   }
 }
 

@@ -46,7 +46,10 @@ Status build_world(RenderJob& job) {
   // Where the first frame wants it, so that it is not built twice.
   io::SceneChanges changes;
   if (!job.frames.empty()) status = pose_scene(job, job.frames.front(), changes);
-  if (status.ok()) status = render::build_world(job.scene, build_options(job), job.world, job.arguments.instancing);
+  if (status.ok()) {
+    status =
+        render::build_world(job.scene, build_options(job), job.world, job.arguments.instancing, job.frames.size() > 1);
+  }
   if (status.ok()) status = get_ready(job);
   job.seconds.build = watch.seconds();
   return status;
@@ -61,8 +64,8 @@ Status move_world(RenderJob& job, const Frame& frame, FrameReport& report) {
   report.moved_lights = changes.lights;
   if (status.ok() && !changes.instances.empty()) {
     set_phase("building the tree");
-    status = render::move_world(changes, build_options(job), job.world);
-    if (status.ok()) status = get_ready(job);
+    status = render::move_world(changes, build_options(job), job.world, report.tree_built);
+    if (status.ok() && report.tree_built) status = get_ready(job);
   }
   report.seconds.build = watch.seconds();
   return status;

@@ -32,7 +32,8 @@ struct FrameReport {
   std::size_t frame = 0;  ///< in RenderJob::frames
   render::RenderStats stats;
   PhaseSeconds seconds;             ///< build, render and write
-  std::size_t moved_instances = 0;  ///< since the frame before, for which the tree was built anew
+  std::size_t moved_instances = 0;  ///< since the frame before
+  bool tree_built = false;          ///< for this frame, though not for the first
   bool moved_lights = false;
 };
 

@@ -100,6 +100,13 @@ class UMBRIX_API Scene {
   /// no memory; the scene then stays empty.
   Status commit(const BuildOptions& options = {});
 
+  /// Moves instances and reshapes prototypes of a committed scene: all answers are then those of a scene that was built
+  /// so. What is no instance stays as it was built, and so does what kernels and frame tracers remember of it. Not
+  /// while queries run, or within a frame. The scene is as before if it fails. invalid_argument: no such instance or
+  /// prototype; or an instance cannot stay one where it goes, or has not become one (add_instance): only a new scene
+  /// has it there. resource_limit: no memory.
+  Status update(const SceneUpdate& update);
+
   /// Builds the tree if the kernel can use it, and makes what the kernel needs beside it
   /// (KernelInfo::needs_preparation), in place of what it had. Answers do not depend on it: queries build the tree
   /// themselves, and do without if there is no memory. After commit, and not while queries run. invalid_argument: not

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "index/local_frame.h"
@@ -29,7 +30,7 @@ class InstanceTree {
   /// A prototype's number. Throws std::bad_alloc.
   std::uint32_t add_prototype(Prototype prototype);
   std::size_t prototype_count() const noexcept { return prototypes_.size(); }
-  const Prototype& prototype(std::uint32_t number) const noexcept { return prototypes_[number]; }
+  const Prototype& prototype(std::uint32_t number) const noexcept { return *prototypes_[number]; }
 
   /// Adds an instance as the scene's mesh of that number, and returns true; or does nothing if two levels do not serve
   /// for its transform. Throws std::bad_alloc.
@@ -37,6 +38,11 @@ class InstanceTree {
 
   /// Once, after all is added. Throws what TriangleBvh throws.
   void build(const Executor* executor);
+
+  /// The same instances with some moved and some prototypes of another shape; shares with this what stays. Returns
+  /// false if the update names what is not there, leaves out an instance of another shape, or two levels do not serve
+  /// for one. Throws as build.
+  bool updated(const SceneUpdate& update, InstanceTree& out) const;
 
   bool empty() const noexcept { return instances_.empty(); }
   std::size_t size() const noexcept { return instances_.size(); }
@@ -50,8 +56,14 @@ class InstanceTree {
   const PlacedInstance& instance(std::uint32_t index) const noexcept { return instances_[index]; }
 
  private:
-  std::vector<Prototype> prototypes_;
-  std::vector<PlacedInstance> instances_;
+  bool place(const double (&to_world)[3][4], PlacedInstance& instance) const;
+  bool reshape(const SceneUpdate& update, std::vector<bool>& moved);
+  bool move(const SceneUpdate& update, std::vector<bool>& moved);
+  void build_boxes(const std::vector<bool>& moved, const Executor* executor);
+
+  std::vector<std::shared_ptr<Prototype>> prototypes_;
+  std::vector<PlacedInstance> instances_;  // in the order of their meshes
+  std::vector<Triangle> instance_boxes_;
   TriangleBvh boxes_;
   LocalFrame frame_{};
   Box bounds_;

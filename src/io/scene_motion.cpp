@@ -126,6 +126,16 @@ Status pose_scene(SceneFile& scene, const Moment& moment, SceneChanges& changes)
   return Status::out_of_memory("not enough memory for the moved scene");
 }
 
+std::vector<bool> moving_instances(const SceneFile& scene) {
+  std::vector<bool> moving(scene.instances.size());
+  if (!scene.motion) return moving;
+  for (const SceneMotion::MovedInstance& moved : scene.motion->instances) moving[moved.instance] = true;
+  for (const SceneMotion::MovedMesh& mesh : scene.motion->meshes) {
+    for (const std::uint32_t instance : mesh.instances) moving[instance] = true;
+  }
+  return moving;
+}
+
 std::array<double, 2> motion_span(const SceneFile& scene) {
   return scene.motion ? scene.motion->span().get() : std::array<double, 2>{0, 0};
 }

@@ -11,9 +11,22 @@ constexpr std::size_t kSmallMesh = 64;
 /// as long either way (docs/instances.md), but the work that --stats counts is told by kernel for placed ones alone.
 constexpr std::uint64_t kWorthSharing = 1'000'000;
 
+/// Meshes that move, if the rest is larger: else most would have to be built again in any case, and rays be slower.
+void share_what_moves(const io::SceneFile& file, std::vector<bool>& shared) {
+  const std::vector<bool> moving = io::moving_instances(file);
+  std::uint64_t triangles[2] = {};
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    triangles[moving[i] ? 1 : 0] += file.meshes[file.instances[i].mesh].triangles.size();
+  }
+  if (triangles[0] <= triangles[1]) return;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (moving[i]) shared[file.instances[i].mesh] = true;
+  }
+}
+
 }  // namespace
 
-std::vector<bool> shared_meshes(const io::SceneFile& file, Instancing instancing) {
+std::vector<bool> shared_meshes(const io::SceneFile& file, Instancing instancing, bool moves) {
   std::vector<bool> shared(file.meshes.size());
   if (instancing == Instancing::flatten) return shared;
   std::vector<std::uint64_t> uses(file.meshes.size());
@@ -24,6 +37,7 @@ std::vector<bool> shared_meshes(const io::SceneFile& file, Instancing instancing
     if (shared[i]) saved += (uses[i] - 1) * file.meshes[i].triangles.size();
   }
   if (instancing == Instancing::automatic && saved < kWorthSharing) shared.assign(shared.size(), false);
+  if (moves) share_what_moves(file, shared);
   return shared;
 }
 

@@ -15,8 +15,9 @@ enum class Instancing {
   share,      ///< instances share the mesh, but for small meshes
 };
 
-/// Of each of the file's meshes: do its instances share it?
-std::vector<bool> shared_meshes(const io::SceneFile& file, Instancing instancing);
+/// Of each of the file's meshes: do its instances share it? Also if there is but one, where the world `moves` (see
+/// move_world) and that saves building the rest anew.
+std::vector<bool> shared_meshes(const io::SceneFile& file, Instancing instancing, bool moves = false);
 
 /// How large a world will be.
 struct WorldSize {

@@ -49,8 +49,8 @@ void note_alpha(const io::SceneFile& file, std::vector<std::string>& notes) {
     return material.alpha_mode == io::AlphaMode::blend && material.alpha > 0;
   });
   if (blended == 0) return;
-  notes.push_back(
-      fmt::format("blended materials ({}) stop rays by chance, as their alpha says: more samples, less noise", blended));
+  notes.push_back(fmt::format(
+      "blended materials ({}) stop rays by chance, as their alpha says: more samples, less noise", blended));
 }
 
 MeshView triangles_of(const io::Mesh& mesh, const std::vector<io::Float3>& positions) {
@@ -65,8 +65,9 @@ MeshView triangles_of(const io::Mesh& mesh, const std::vector<io::Float3>& posit
 /// Adds meshes, and for the first instance of each that is shared its prototype.
 class SceneFiller {
  public:
-  SceneFiller(const io::SceneFile& file, Scene& scene)
-      : file_(file), scene_(scene), prototypes_(file.meshes.size(), Primitive::kNone) {}
+  explicit SceneFiller(World& world) : file_(*world.file), scene_(world.scene), prototypes_(world.prototypes) {
+    prototypes_.assign(file_.meshes.size(), Primitive::kNone);
+  }
 
   Status add(const WorldMesh& mesh, const OpacityTest& opacity) {
     if (!mesh.positions.empty()) {
@@ -89,16 +90,34 @@ class SceneFiller {
  private:
   const io::SceneFile& file_;
   Scene& scene_;
-  std::vector<std::uint32_t> prototypes_;  ///< by the file's meshes
+  std::vector<std::uint32_t>& prototypes_;
 };
 
 Status build_scene(const BuildOptions& options, World& world) {
   world.scene = Scene();  // the old tree goes before the new one comes
-  SceneFiller filler(*world.file, world.scene);
+  SceneFiller filler(world);
   for (std::size_t i = 0; i < world.meshes.size(); ++i) {
     if (Status status = filler.add(world.meshes[i], world.opacity[i]); !status) return status;
   }
   return world.scene.commit(options);
+}
+
+/// Returns false if only a new scene will do.
+bool update_scene(const io::SceneChanges& changes, const std::vector<SceneUpdate::Move>& moves,
+                  const BuildOptions& options, World& world) {
+  std::vector<SceneUpdate::Reshape> shapes;
+  for (const std::uint32_t number : changes.meshes) {
+    if (world.prototypes[number] == Primitive::kNone) continue;
+    const io::Mesh& mesh = world.file->meshes[number];
+    shapes.push_back({world.prototypes[number], triangles_of(mesh, mesh.positions)});
+  }
+  SceneUpdate update;
+  update.moves = moves.data();
+  update.move_count = moves.size();
+  update.shapes = shapes.data();
+  update.shape_count = shapes.size();
+  update.executor = options.executor;
+  return world.scene.update(update).ok();
 }
 
 Status named(const io::SceneFile& file, const Status& status) {
@@ -137,11 +156,11 @@ io::Float3 WorldMesh::position(std::size_t vertex) const noexcept {
 MeshView WorldMesh::view() const noexcept { return triangles_of(*mesh, positions); }
 
 Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vector<std::string>& notes,
-               Instancing instancing) try {
+               Instancing instancing, bool moves) try {
   out.clear();
   notes.clear();
   note_alpha(file, notes);
-  const std::vector<bool> shared = shared_meshes(file, instancing);
+  const std::vector<bool> shared = shared_meshes(file, instancing, moves);
   for (std::uint32_t i = 0; i < file.instances.size(); ++i) {
     const io::Mesh& mesh = file.meshes[file.instances[i].mesh];
     if (mesh.triangles.empty() || invisible(file.materials[mesh.material], mesh)) continue;
@@ -152,20 +171,32 @@ Status flatten(const io::SceneFile& file, std::vector<WorldMesh>& out, std::vect
   return Status::out_of_memory("no memory for the placed vertices");
 }
 
-Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out, Instancing instancing) {
+Status build_world(const io::SceneFile& file, const BuildOptions& options, World& out, Instancing instancing,
+                   bool moves) {
   out = World();
   out.file = &file;
-  if (Status status = flatten(file, out.meshes, out.notes, instancing); !status) return status;
+  if (Status status = flatten(file, out.meshes, out.notes, instancing, moves); !status) return status;
   if (Status status = make_opacity(file, out.meshes, out.alpha, out.opacity); !status) return named(file, status);
   return named(file, build_scene(options, out));
 }
 
-Status move_world(const io::SceneChanges& changes, const BuildOptions& options, World& world) try {
+Status move_world(const io::SceneChanges& changes, const BuildOptions& options, World& world, bool& rebuilt) try {
+  rebuilt = false;
   if (changes.instances.empty()) return {};
-  for (WorldMesh& mesh : world.meshes) {
+  bool all_share = true;
+  std::vector<SceneUpdate::Move> moves;
+  for (std::size_t i = 0; i < world.meshes.size(); ++i) {
+    WorldMesh& mesh = world.meshes[i];
     if (!std::binary_search(changes.instances.begin(), changes.instances.end(), mesh.instance)) continue;
-    mesh = place(*world.file, mesh.instance, mesh.positions.empty());
+    const bool shares = mesh.positions.empty();
+    all_share &= shares;
+    mesh = place(*world.file, mesh.instance, shares);
+    SceneUpdate::Move& move = moves.emplace_back();
+    move.mesh = static_cast<std::uint32_t>(i);
+    copy(*mesh.to_world, move.to_world);
   }
+  if (all_share && update_scene(changes, moves, options, world)) return {};
+  rebuilt = true;
   return named(*world.file, build_scene(options, world));
 } catch (const std::bad_alloc&) {
   return Status::out_of_memory("no memory for the placed vertices");

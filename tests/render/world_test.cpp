@@ -129,10 +129,12 @@ TEST(World, WhatMovesIsPlacedAnewAndWhatStaysIsKept) {
 
   scene.instances[1].to_world = {{{-1, 0, 0, 20}, {0, 1, 0, 0}, {0, 0, 1, 8}}};
   io::SceneChanges changes;
-  ASSERT_TRUE(move_world(changes, {}, world).ok());
+  bool rebuilt = false;
+  ASSERT_TRUE(move_world(changes, {}, world, rebuilt).ok());
   EXPECT_EQ(depth_at(10.25f), 4) << "nothing was said to have moved";
   changes.instances = {1};
-  ASSERT_TRUE(move_world(changes, {}, world).ok());
+  ASSERT_TRUE(move_world(changes, {}, world, rebuilt).ok());
+  EXPECT_TRUE(rebuilt);
   EXPECT_EQ(depth_at(10.25f), -1);
   EXPECT_EQ(depth_at(19.25f), 1);
   EXPECT_EQ(depth_at(0.25f), 9);

@@ -201,6 +201,9 @@ struct SceneChanges {
 /// the scene is as before.
 UMBRIX_API Status pose_scene(SceneFile& scene, const Moment& moment, SceneChanges& changes);
 
+/// Of each instance: can pose_scene give it another place or shape?
+UMBRIX_API std::vector<bool> moving_instances(const SceneFile& scene);
+
 /// From the first to the last key of what moves the scene, in seconds; zeros if nothing does.
 UMBRIX_API std::array<double, 2> motion_span(const SceneFile& scene);
 
