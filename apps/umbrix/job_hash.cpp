@@ -98,12 +98,7 @@ std::string picture_options(const CLI::App& command) {
 Status hash_inputs(const RenderJob& job, std::string& out) {
   // Which file is which does not matter: the files themselves say what each other is called.
   std::multiset<std::string> hashes;
-  // Images in files of their own have not been read yet.
-  std::vector<std::string> pictures;
-  for (const io::TextureImage& image : job.scene.images) {
-    if (!image.file.empty()) pictures.push_back(image.file);
-  }
-  for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files, &pictures}) {
+  for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files}) {
     for (const std::string& path : *files) {
       std::string hash;
       std::error_code error;
