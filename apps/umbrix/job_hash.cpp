@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <set>
 #include <string_view>
 
@@ -97,17 +98,14 @@ std::string picture_options(const CLI::App& command) {
 Status hash_inputs(const RenderJob& job, std::string& out) {
   // Which file is which does not matter: the files themselves say what each other is called.
   std::multiset<std::string> hashes;
-  // Images in files of their own have not been read yet.
-  std::vector<std::string> pictures;
-  for (const io::TextureImage& image : job.scene.images) {
-    if (!image.file.empty()) pictures.push_back(image.file);
-  }
-  for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files, &pictures}) {
+  for (const std::vector<std::string>* files : {&job.scene.files, &job.origin.setup_files}) {
     for (const std::string& path : *files) {
       std::string hash;
-      const Status status = io::hash_file(path, hash);
-      // Of what a scene can do without, a texture say, loading tells that it cannot be read.
-      if (!status && status.code() != StatusCode::bad_input) return status;
+      std::error_code error;
+      // A scene does without a picture that is not there.
+      if (std::filesystem::is_regular_file(path, error)) {
+        if (Status status = io::hash_file(path, hash); !status) return status;
+      }
       hashes.insert(hash);
     }
   }

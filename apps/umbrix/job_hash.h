@@ -12,7 +12,8 @@ namespace umbrix::app {
 /// those that are known not to, so that an option that is added later counts until someone says otherwise.
 std::string picture_options(const CLI::App& command);
 
-/// Hashes the bytes of all files that scene and setup are made of. Fails for want of memory only.
+/// Hashes the bytes of all files that scene and setup are made of. bad_input names a file that is there and cannot be
+/// read.
 Status hash_inputs(const RenderJob& job, std::string& out);
 
 /// What a job's files have as `umbrix:job`: a hash of its inputs, of Umbrix's version and of all options that change
