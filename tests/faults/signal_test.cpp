@@ -44,6 +44,7 @@ TEST_F(Signal, WhileALargeTreeIsBuilt) {
   FaultRow row("SIGINT and SIGTERM while a tree over 2.4 million triangles is built");
   std::vector<std::string> arguments = render_arguments();
   arguments[1] = scene;
+  arguments.insert(arguments.end(), {"--instances", "flatten", "--kernel", "standard"});
   interrupt(arguments, 4, fault_runs(1, 25), row);
 }
 
