@@ -132,7 +132,7 @@ TEST_F(MovingScene, OneAnimationMayBeChosen) {
   EXPECT_EQ(lamp["trees_built"], 1);
   EXPECT_EQ(square["trees_built"], 2);
   EXPECT_EQ(square["frames"][1]["moved_lights"], false);
-  EXPECT_TRUE(equal("all.00.png", "lamp.00.png"));
+  EXPECT_TRUE(same_picture("all.00.png", "lamp.00.png"));
   EXPECT_FALSE(same_picture("all.24.png", "lamp.24.png"));
   EXPECT_FALSE(same_picture("all.24.png", "square.24.png"));
   const Outcome wrong =
