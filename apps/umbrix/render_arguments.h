@@ -34,7 +34,7 @@ struct RenderArguments {
   std::string camera;                ///< name or number; empty: the first, or the setup's
   std::vector<int> frames;           ///< empty: a still
   double fps = 24;
-  std::string animation;          ///< name or number; empty: all
+  std::string animation;             ///< name or number; empty: all
   std::optional<Size> size;          ///< none: 720 rows in the camera's aspect
   std::optional<render::Crop> crop;  ///< or the one pixel
   std::optional<Tile> tile;          ///< not beside a crop

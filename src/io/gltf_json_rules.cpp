@@ -158,10 +158,9 @@ constexpr Rule kBodyRules[] = {
 
 #undef UMBRIX_TEXTURE_INFO
 
-constexpr const char* kSupported[] = {"EXT_mesh_gpu_instancing", "KHR_lights_punctual",
-                                      "KHR_materials_emissive_strength", "KHR_materials_ior",
-                                      "KHR_materials_specular", "KHR_materials_unlit",
-                                      "KHR_mesh_quantization", "KHR_texture_transform"};
+constexpr const char* kSupported[] = {
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular",  "KHR_materials_unlit", "KHR_mesh_quantization",           "KHR_texture_transform"};
 
 // The number of elements of the array at a dotted path; 0 if there is none.
 std::uint64_t array_size(const json& root, std::string_view path) {
