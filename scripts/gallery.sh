@@ -13,14 +13,14 @@ picture() {  # scene, name, more options
   local scene=$1 name=$2
   shift 2
   # shellcheck disable=SC2086  # the options are several words
-  build/release/apps/umbrix/umbrix render "$scene" -o "docs/gallery/$name.png" --overwrite -q --size 960x540 \
+  build/release/apps/umbrix/umbrix render "$scene" -o "docs/gallery/$name.png" --overwrite -q --size 640x360 \
     --filter blackman-harris --tonemap agx "$@" ${UMBRIX_GALLERY:-}
   echo "docs/gallery/$name.png"
 }
 
-picture scenes/cornell.glb cornell --spp 128 --bounces 6
+picture scenes/cornell.glb cornell --spp 64 --bounces 6
 picture scenes/atrium.glb atrium --spp 32 --bounces 4
 for name in sponza_crytek classroom bedroom japanese_garden; do
   scene=$folder/$name.glb
-  if [ -f "$scene" ]; then picture "$scene" "$name" --setup docs/gallery/views.json --spp 128 --bounces 4; fi
+  if [ -f "$scene" ]; then picture "$scene" "$name" --setup docs/gallery/views.json --spp 64 --bounces 4; fi
 done
