@@ -18,9 +18,8 @@ picture() {  # scene, name, more options
   echo "docs/gallery/$name.png"
 }
 
-picture scenes/cornell.glb cornell --spp 64 --bounces 6
-picture scenes/atrium.glb atrium --spp 32 --bounces 4
-for name in sponza_crytek classroom bedroom japanese_garden; do
+for name in sponza_crytek bedroom japanese_garden classroom; do
   scene=$folder/$name.glb
-  if [ -f "$scene" ]; then picture "$scene" "$name" --setup docs/gallery/views.json --spp 64 --bounces 4; fi
+  if [ -f "$scene" ]; then picture "$scene" "$name" --setup docs/gallery/views.json --spp 32 --bounces 4; fi
 done
+picture scenes/cornell.glb cornell --spp 64 --bounces 6
