@@ -59,11 +59,12 @@ class AlbedoTable {
     const Vec3 wo(std::sqrt(1 - cosine * cosine), 0, cosine);
     const double alpha2 = alpha * alpha;
     double sum = 0;
-    for (int i = 0; i < kAzimuths * kHeights; ++i) {
-      const SamplePoint u = {(i / kHeights + 0.5) / (2 * kAzimuths), (i % kHeights + 0.5) / kHeights};
-      const Vec3 half = sample_visible_normal(wo, alpha, u);
-      const double normal_light = 2 * glm::dot(wo, half) * half.z - wo.z;
-      if (normal_light > 0) {
+    for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
+      for (int height = 0; height < kHeights; ++height) {
+        const SamplePoint u = {(azimuth + 0.5) / (2 * kAzimuths), (height + 0.5) / kHeights};
+        const Vec3 half = sample_visible_normal(wo, alpha, u);
+        const double normal_light = 2 * glm::dot(wo, half) * half.z - wo.z;
+        if (!(normal_light > 0)) continue;
         sum += 2 * smith_visibility(normal_light, cosine, alpha2) * normal_light * (cosine + root(cosine, alpha2));
       }
     }
