@@ -212,7 +212,9 @@ TEST_F(Output, InstancesThatShareTheirMeshLookTheSameInLessMemory) {
   ASSERT_EQ(placed.code, 0);
   ASSERT_EQ(shared.code, 0);
   EXPECT_EQ(read("flatten.exr"), read("share.exr"));
+#ifndef __SANITIZE_ADDRESS__  // which holds as much by itself
   EXPECT_LT(shared.peak_megabytes, 0.7 * placed.peak_megabytes);
+#endif
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("--instances: 'copy' is not one of auto|flatten|share"), std::string::npos);
 }
