@@ -4,12 +4,6 @@
 #include "render/sampling/directions.h"
 
 namespace umbrix::render {
-namespace {
-
-/// The purpose of its random numbers (bounces.cpp and light_rays.cpp have others).
-constexpr std::uint32_t kLookAround = 0xFFFFFFFBu;
-
-}  // namespace
 
 void AmbientOcclusion::trace(std::uint32_t index, TileSamples& tile) {
   const std::uint32_t times = options_.light_samples;

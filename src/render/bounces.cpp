@@ -14,9 +14,6 @@
 namespace umbrix::render {
 namespace {
 
-/// Purposes of random numbers that are no light's own (light_rays.cpp has two more).
-constexpr std::uint32_t kDirection = 0xFFFFFFFDu, kLobeAndEnd = 0xFFFFFFFCu;
-
 /// Paths end at random from here on: those that carry little light sooner.
 constexpr std::uint32_t kFirstRoulette = 2;
 constexpr double kMostToGoOn = 0.95;
@@ -56,7 +53,7 @@ bool Bounces::choose(std::uint32_t index, std::uint32_t i, TileSamples& tile) {
 
   const Surface& surface = tile.surfaces[i];
   const Vec3 direction =
-      sample_bsdf(surface.bsdf, surface.shading_normal, surface.to_viewer, lobe_and_end.x, random(kDirection));
+      sample_bsdf(surface.bsdf, surface.shading_normal, surface.to_viewer, lobe_and_end.x, random(kBounceDirection));
   const double cosine = glm::dot(surface.shading_normal, direction);
   if (!(cosine > 0 && glm::dot(surface.geometric_normal, direction) > 0)) return false;
   const double density = bsdf_density(surface.bsdf, surface.shading_normal, surface.to_viewer, direction);

@@ -4,12 +4,6 @@
 #include "render/light_rays.h"
 
 namespace umbrix::render {
-namespace {
-
-/// Purposes of random numbers that are no light's own.
-constexpr std::uint32_t kChoiceOfLight = 0xFFFFFFFFu, kPointOfChosen = 0xFFFFFFFEu;
-
-}  // namespace
 
 void LightRays::trace(std::uint32_t index, TileSamples& tile, std::vector<LightStats>& stats) {
   if (!lights_.punctual().empty()) {
