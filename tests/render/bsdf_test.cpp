@@ -22,7 +22,7 @@ BsdfParameters material(double metallic, double roughness) { return {Rgb(1), met
 
 /// The light that leaves towards `wo` if all directions bring 1: at most 1 for a surface that makes no light.
 double white_furnace(const BsdfParameters& m, const Vec3& wo) {
-  constexpr int kRows = 2048, kColumns = 256;
+  constexpr int kRows = 1024, kColumns = 1024;
   double sum = 0;
   for (int i = 0; i < kRows; ++i) {
     // Equal steps of the squared sine are equal shares of the projected hemisphere.
