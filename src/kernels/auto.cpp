@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // All rays to a light as the light sees them (light_trace-inl.h); what that is not for goes in groups that share a
 // walk of the tree, and first meets what blocked the rays before (group-inl.h), or as long as it is not worth a tree
-// ray by ray through the boxes (bvh_walk-inl.h). Queries that count work build the tree first, so that counts do not
+// ray by ray through the boxes (bvh_walk-inl.h). Nearest hits of rays from one point go in packets
+// (closest_trace-inl.h). Queries that count work build the tree first, so that counts do not
 // depend on what was asked before. The default.
 
 #undef HWY_TARGET_INCLUDE
@@ -12,6 +13,7 @@
 
 #include "kernels/batch-inl.h"
 #include "kernels/bvh_walk-inl.h"
+#include "kernels/closest_trace-inl.h"
 #include "kernels/light_trace-inl.h"
 #include "kernels/shaft_trace-inl.h"
 
@@ -48,10 +50,15 @@ struct AutoKernel {
   }
 
   static void closest(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options) {
-    if (scene.lazy_tree->earn(rays.count))
-      closest_each<TreeKernel<StackWalk>>(scene, rays, out, options);
-    else
-      closest_each<BvhKernel>(scene, rays, out, options);
+    ClosestTrace(scene, options).trace(rays, out, [&](std::size_t first, std::size_t count) {
+      QueryOptions here = options;
+      if (here.skip) here.skip += first;
+      const RaySpan part{&rays[first], count, rays.stride};
+      if (scene.lazy_tree->earn(count))
+        closest_each<TreeKernel<StackWalk>>(scene, part, out + first, here);
+      else
+        closest_each<BvhKernel>(scene, part, out + first, here);
+    });
   }
 
   static void closest_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,

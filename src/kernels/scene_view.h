@@ -73,6 +73,9 @@ class Filter {
 
   bool admits(std::uint32_t id) const noexcept { return id != skip_ && (plain_ || (mask_of(id) & mask_) != 0); }
 
+  /// Does this triangle block all rays that hit it, if it is there?
+  bool is_solid(std::uint32_t id) const noexcept { return plain_ || !scene_.meshes[scene_.mesh_of[id]].opacity.opaque; }
+
   /// For a triangle that is hit: does it block there?
   bool is_opaque(const Ray& ray, std::uint32_t id) const noexcept {
     if (plain_) return true;

@@ -86,6 +86,12 @@ HWY_INLINE bool leaf_blocks(const SceneView& scene, const Filter& filter, const 
   return false;
 }
 
+/// A float time in the tree's units that is not before the hit.
+inline float time_after(const OrderedHit& hit, double time_scale) {
+  const double t = std::clamp(hit.t_high * time_scale, -kTimeLimit, kTimeLimit);
+  return std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity());
+}
+
 /// Offers the block's possible hits; `limit` is the time beyond which nothing can come first any more.
 template <class Triangles, class Counts>
 HWY_INLINE void block_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
@@ -95,9 +101,8 @@ HWY_INLINE void block_closest(const SceneView& scene, const Filter& filter, cons
   const LaneBits lanes = test(block, reach, limit);
   for (std::uint32_t rest = lanes.hit | lanes.undecided; rest != 0; rest &= rest - 1) {
     const std::uint32_t id = block.id[lane_of(rest)];
-    if (!nearest.offer(scene, filter, ray, id, counts)) continue;
-    const double t = std::clamp(nearest.hit.t_high * walk_ray.time_scale, -kTimeLimit, kTimeLimit);
-    limit = std::min(walk_ray.tmax, std::nextafter(static_cast<float>(t), std::numeric_limits<float>::infinity()));
+    if (nearest.offer(scene, filter, ray, id, counts))
+      limit = std::min(walk_ray.tmax, time_after(nearest.hit, walk_ray.time_scale));
   }
 }
 

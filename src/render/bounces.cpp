@@ -88,7 +88,7 @@ void Bounces::arrive(TileSamples& tile, RenderStats& stats) {
     const Vec3 direction = glm::normalize(load(rays_[k].direction));
     tile.active[i] = hits_[k].valid();
     if (tile.active[i]) {
-      tile.surfaces[i] = surface_at(world_, rays_[k], hits_[k]);
+      find_surface(world_, rays_[k], hits_[k], tile.surfaces[i]);
       ++stats.bounce_hits;
     }
     const Rgb seen = light_seen(steps_[k], direction, tile.active[i] ? &tile.surfaces[i] : nullptr);

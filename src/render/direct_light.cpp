@@ -77,10 +77,12 @@ void DirectLight::gather(const Light& light, const std::vector<LightRequest>& re
       ++stats.skipped_no_power;
       continue;
     }
-    rays_.push_back(shadow_ray(receiver, arrival));
+    find_shadow_ray(receiver, arrival, rays_.emplace_back());
     skip_.push_back(surface.primitive);
     pixels_.push_back(tile.pixels[request.sample]);
-    pending_.push_back({request.sample, radiance});
+    Pending& pending = pending_.emplace_back();
+    pending.sample = request.sample;
+    pending.radiance = radiance;
   }
 }
 

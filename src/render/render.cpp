@@ -128,7 +128,7 @@ class TileRenderer {
         continue;
       }
       Surface& surface = tile_.surfaces[i];
-      surface = surface_at(frame_.world, rays_[i], hits_[i]);
+      find_surface(frame_.world, rays_[i], hits_[i], surface);
       sample.hit = sample.opaque = true;
       sample.radiance = surface.emission;
       sample.depth = hits_[i].t;

@@ -26,16 +26,14 @@ Vec3 before_light(const Vec3& origin, const Vec3& way, const Arrival& arrival) {
 
 Receiver receiver_at(const Surface& surface) { return {surface.point, surface.origin, surface.shading_normal}; }
 
-Ray shadow_ray(const Receiver& receiver, const Arrival& arrival) {
+void find_shadow_ray(const Receiver& receiver, const Arrival& arrival, Ray& ray) {
   Vec3 way = arrival.to_light;
   if (arrival.tmax == 1) way += receiver.point - receiver.origin;
   if (arrival.normal != Vec3(0)) way = before_light(receiver.origin, way, arrival);
-  Ray ray;
   store(receiver.origin, ray.origin);
   store(way, ray.direction);
   ray.tmin = 0;
   ray.tmax = arrival.tmax;
-  return ray;
 }
 
 }  // namespace umbrix::render

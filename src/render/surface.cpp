@@ -129,7 +129,7 @@ Vec3 origin_before(const Surface& surface) {
 
 }  // namespace
 
-Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
+void find_surface(const World& world, const Ray& ray, const Hit& hit, Surface& surface) {
   const WorldMesh& mesh = world.meshes[hit.primitive.mesh];
   const std::array<std::uint32_t, 3>& indices = mesh.mesh->triangles[hit.primitive.triangle];
   Corners corners;
@@ -137,7 +137,6 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   const Vec3 normal = glm::cross(corners.p[1] - corners.p[0], corners.p[2] - corners.p[0]);
   const double area = glm::length(normal);
 
-  Surface surface;
   surface.primitive = hit.primitive;
   surface.to_viewer = -glm::normalize(Vec3(ray.direction[0], ray.direction[1], ray.direction[2]));
 
@@ -162,9 +161,9 @@ Surface surface_at(const World& world, const Ray& ray, const Hit& hit) {
   surface.shading_normal = shading;
   const MaterialPoint material = material_at(at);
   surface.bsdf = material.bsdf;
-  if (!behind || at.material().double_sided || at.material().unlit) surface.emission = material.emission;
+  const bool emits = !behind || at.material().double_sided || at.material().unlit;
+  surface.emission = emits ? material.emission : Rgb(0);
   surface.origin = origin_before(surface);
-  return surface;
 }
 
 }  // namespace umbrix::render

@@ -22,7 +22,7 @@ struct Surface {
   Primitive primitive;
 };
 
-/// Where `ray` met `hit`.
-Surface surface_at(const World& world, const Ray& ray, const Hit& hit);
+/// Fills `surface` with where `ray` met `hit`.
+void find_surface(const World& world, const Ray& ray, const Hit& hit, Surface& surface);
 
 }  // namespace umbrix::render

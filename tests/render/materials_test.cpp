@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "render/surface.h"
 #include "textured_scenes.h"
+#include "traced.h"
 
 namespace umbrix::render {
 namespace {

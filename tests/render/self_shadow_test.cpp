@@ -9,7 +9,7 @@
 #include "built_scenes.h"
 #include "convex_mesh.h"
 #include "render/camera.h"
-#include "render/shadow_ray.h"
+#include "traced.h"
 
 namespace umbrix::render {
 namespace {

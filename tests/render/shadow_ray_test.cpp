@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where shadow rays end: a light is never in its own way, whatever lies on it is not either, and what is in front of it
 // is. Random lights of all sizes, at all distances from the origin.
-#include "render/shadow_ray.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 
 #include "built_scenes.h"
 #include "light_estimates.h"
+#include "traced.h"
 
 namespace umbrix::render {
 namespace {

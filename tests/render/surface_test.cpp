@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/surface.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +8,7 @@
 #include <random>
 
 #include "built_scenes.h"
-#include "render/shadow_ray.h"
+#include "traced.h"
 
 namespace umbrix::render {
 namespace {
