@@ -49,6 +49,8 @@ enum class OneLight { anywhere, in_plane, at_vertex, near_triangle, far_off };
 CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count);
 /// Or come in bundles from points of that kind, as to lights of some size.
 CaseData from_points(OneLight kind, std::uint64_t seed, std::size_t ray_count);
+/// Or from points of that kind in blocks of sixteen that go nearly one way, as a camera's.
+CaseData from_eyes(OneLight kind, std::uint64_t seed, std::size_t ray_count);
 
 // huge.cpp: `count` triangles
 CaseData huge_degenerate_soup(std::size_t count, std::uint64_t seed, std::size_t ray_count);

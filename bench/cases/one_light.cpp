@@ -113,4 +113,27 @@ CaseData from_points(OneLight kind, std::uint64_t seed, std::size_t ray_count) {
   return data;
 }
 
+CaseData from_eyes(OneLight kind, std::uint64_t seed, std::size_t ray_count) {
+  Random random(seed);
+  CaseData data{seen_scene(random), {}};
+  const Triangles& all = data.triangles;
+  while (data.rays.size() < ray_count) {
+    const Float3 eye = light_of(kind, all, random);
+    for (std::size_t blocks = 1 + random.below(20); blocks > 0; --blocks) {
+      const std::size_t aim = random.below(all.size());
+      const Float3 lead = point_on(all[aim], random);
+      // At any points of three triangles, or so near each other.
+      const float nearness = random.chance(0.5) ? 1 : random.magnitude(-6, 0);
+      const float tmin = random.chance(0.8) ? 0 : random.uniform(0, 1.5f);
+      const float tmax = random.chance(0.5) ? std::numeric_limits<float>::infinity() : random.uniform(0.5f, 3);
+      for (std::size_t rays = 16; rays > 0; --rays) {
+        const Float3 target = point_on(all[(aim + random.below(3)) % all.size()], random);
+        data.rays.push_back(ray_to(eye, between(lead, target, nearness), tmin, tmax));
+      }
+    }
+  }
+  data.rays.resize(ray_count);
+  return data;
+}
+
 }  // namespace umbrix::cases

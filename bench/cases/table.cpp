@@ -133,6 +133,25 @@ void add_points(std::vector<Case>& table) {
   }
 }
 
+void add_eyes(std::vector<Case>& table) {
+  struct Eye {
+    const char* name;
+    OneLight kind;
+    const char* summary;
+  };
+  const Eye eyes[] = {{"camera", OneLight::anywhere, "rays from a point in blocks that go nearly one way"},
+                      {"camera_in_plane", OneLight::in_plane, "the same, the point in planes of triangles"},
+                      {"camera_at_vertex", OneLight::at_vertex, "the same, the point at a vertex"},
+                      {"camera_near", OneLight::near_triangle, "the same, the point next to a triangle"},
+                      {"camera_far", OneLight::far_off, "the same, the point 10 to 10000 sizes away"}};
+  for (const Eye& eye : eyes) {
+    Case c = plain(24, eye.name, 1e6, nullptr, eye.summary);
+    c.make = [kind = eye.kind](std::uint64_t seed, std::size_t rays) { return from_eyes(kind, seed, rays); };
+    c.rays_per_scene = 4'000;
+    table.push_back(std::move(c));
+  }
+}
+
 // Row 27: where claims end is what the thinner ones tell.
 void add_thin_walls(std::vector<Case>& table) {
   struct Wall {
@@ -249,6 +268,7 @@ std::vector<Case> all_cases(double size) {
   add_lights(table);
   add_one_light(table);
   add_points(table);
+  add_eyes(table);
   add(plain(24, "far_origins", 1e6, far_origins, "from 10 to 1e12 extents outside"));
   add(plain(25, "no_distance", 1e5, no_distance, "the light at the point itself or one unit in the last place off"));
   add(plain(25, "interval_ends", 1e6, interval_ends, "tmin or tmax within 2 units in the last place of a hit"));
