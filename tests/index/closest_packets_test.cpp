@@ -4,9 +4,11 @@
 // asked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "two_meshes.h"
@@ -126,35 +128,59 @@ TEST(ClosestPackets, SomeRaysMayBeOdd) {
   expect_hits(two.scene, rays);
 }
 
-/// A wall of squares at z = 0; rays to its vertices and the middles of its edges meet up to six triangles at once.
-TEST(ClosestPackets, EqualDistancesGoToTheTriangleAddedFirst) {
-  constexpr int kSide = 9;
+/// Of squares of two triangles each; its vertices are 9x9.
+struct Wall {
+  static constexpr int kSide = 9;
   std::vector<float> vertices;
   std::vector<std::uint32_t> indices;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
-      for (const int c : {x - 4, y - 4, 0}) vertices.push_back(static_cast<float>(c));
-      if (x + 1 == kSide || y + 1 == kSide) continue;
-      const auto v = static_cast<std::uint32_t>(y * kSide + x);
-      for (const std::uint32_t i : {v, v + 1, v + 9, v + 1, v + 10, v + 9}) indices.push_back(i);
+
+  Wall(float square, float tilt) {
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        for (const int c : {x - 4, y - 4}) vertices.push_back(square * static_cast<float>(c));
+        vertices.push_back(tilt * static_cast<float>(2 * x - y));
+        if (x + 1 == kSide || y + 1 == kSide) continue;
+        const auto v = static_cast<std::uint32_t>(y * kSide + x);
+        for (const std::uint32_t i : {v, v + 1, v + kSide, v + 1, v + kSide + 1, v + kSide}) indices.push_back(i);
+      }
     }
   }
-  Scene scene;
-  MeshView wall;
-  wall.vertices = vertices.data();
-  wall.vertex_count = vertices.size() / 3;
-  wall.indices = indices.data();
-  wall.triangle_count = indices.size() / 3;
-  ASSERT_TRUE(scene.add(wall).ok());
-  ASSERT_TRUE(scene.add(wall).ok());  // and once more
-  ASSERT_TRUE(scene.commit().ok());
-  std::vector<Ray> rays;
-  for (int i = 0; i < 40 * 40; ++i) {
-    const int block = i / 16, x = block % 10 * 4 + i % 4, y = block / 10 * 4 + i / 4 % 4;
-    const float at[2] = {0.25f * static_cast<float>(x) - 4.75f, 0.25f * static_cast<float>(y) - 4.75f};
-    rays.push_back({{1, -2, 16}, 0, {at[0] - 1, at[1] + 2, -16}, 2});
+
+  MeshView view() const {
+    MeshView wall;
+    wall.vertices = vertices.data();
+    wall.vertex_count = vertices.size() / 3;
+    wall.indices = indices.data();
+    wall.triangle_count = indices.size() / 3;
+    return wall;
   }
-  expect_hits(scene, rays);
+
+  /// Four rays a square and axis, from (1, -2, 16) squares away: to its vertices, the middles of edges and between.
+  static std::vector<Ray> rays(float square) {
+    std::vector<Ray> result;
+    for (int i = 0; i < 40 * 40; ++i) {
+      const int block = i / 16, x = block % 10 * 4 + i % 4, y = block / 10 * 4 + i / 4 % 4;
+      const float at[2] = {0.25f * static_cast<float>(x) - 4.75f, 0.25f * static_cast<float>(y) - 4.75f};
+      result.push_back(
+          {{square, -2 * square, 16 * square}, 0, {square * (at[0] - 1), square * (at[1] + 2), -16 * square}, 2});
+    }
+    return result;
+  }
+};
+
+TEST(ClosestPackets, EqualDistancesGoToTheTriangleAddedFirst) {
+  // Without rounding rays meet up to six triangles of a wall at once.
+  for (const auto& [square, tilt] : {std::pair(1.0f, 0.0f), std::pair(0.3f, 0.07f)}) {
+    SCOPED_TRACE(square);
+    Wall wall(square, tilt), turned = wall;
+    for (std::size_t i = 0; i < turned.indices.size(); i += 3)
+      std::rotate(&turned.indices[i], &turned.indices[i + 1], &turned.indices[i] + 3);
+    Scene scene;
+    ASSERT_TRUE(scene.add(wall.view()).ok());
+    ASSERT_TRUE(scene.add(turned.view()).ok());  // equal triangles whose arithmetic is another
+    ASSERT_TRUE(scene.commit().ok());
+    expect_hits(scene, Wall::rays(square));
+  }
 }
 
 TEST(ClosestPackets, ScenesOfAnySize) {
