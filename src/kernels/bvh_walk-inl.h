@@ -114,13 +114,9 @@ struct BvhKernel {
       return far_occluded(scene, filter, ray, counts);
     const Interval at = clip_to_root(walk_ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return false;
-    const LeafTest test(walk_ray);
+    const RowTest test(walk_ray);
     const auto rows = [&](const TriangleRows& triangles, float t0) {
-      for (std::uint32_t first = 0; first < triangles.count; first += kBlockLanes) {
-        const RowHalf half(triangles, first);
-        if (block_blocks(scene, filter, ray, test, walk_ray, half, test.reach(half, t0), counts)) return true;
-      }
-      return false;
+      return block_blocks(scene, filter, ray, test, walk_ray, triangles, test.reach(triangles, t0), counts);
     };
     return bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), walk_ray.tmax, rows, counts);
   }
@@ -139,13 +135,10 @@ struct BvhKernel {
     }
     const Interval at = clip_to_root(walk_ray, *scene.tree);
     if (!(at.t0 <= at.t1)) return;
-    const LeafTest test(walk_ray);
+    const RowTest test(walk_ray);
     float limit = walk_ray.tmax;
     const auto rows = [&](const TriangleRows& triangles, float t0) {
-      for (std::uint32_t first = 0; first < triangles.count; first += kBlockLanes) {
-        const RowHalf half(triangles, first);
-        block_closest(scene, filter, ray, test, walk_ray, half, test.reach(half, t0), nearest, limit, counts);
-      }
+      block_closest(scene, filter, ray, test, walk_ray, triangles, test.reach(triangles, t0), nearest, limit, counts);
       return false;
     };
     bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), limit, rows, counts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray against the triangles of a leaf, eight at a time: Moeller & Trumbore (1997) with the origin moved to a
+// One ray against the triangles of a leaf side by side: Moeller & Trumbore (1997) with the origin moved to a
 // vertex, filtered after Shewchuk (1997). For s = o - v0 and D, S, Eb bounding |d|, |s| and the edges,
 //   E  = k D Eb (2 S + Eb)          bounds the errors of det, U, V and W,
 //   EA = k Eb^2 (S + |t| D)         bounds that of T - t det,          k = 10.5 * 2^-24,
@@ -41,63 +41,53 @@ struct LaneBits {
   std::uint32_t undecided = 0;
 };
 
-inline std::uint32_t bits_of(FloatMask mask) {
+/// One bit a lane.
+template <class D>
+HWY_INLINE std::uint32_t mask_bits(D f, hn::Mask<D> mask) {
   alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(Lanes8(), mask, bytes);
-  return bytes[0];
+  hn::StoreMaskBits(f, mask, bytes);
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
 }
+inline std::uint32_t bits_of(FloatMask mask) { return mask_bits(Lanes8(), mask); }
 
-/// Eight triangles of a row of sixteen, from `first` on, tested as a block is.
-struct RowHalf {
-  const TriangleRows& rows;
-  std::uint32_t first;
-  std::uint32_t count;
-  float edge_bound, reach;
-  const std::uint32_t* id;
-
-  RowHalf(const TriangleRows& the_rows, std::uint32_t first_lane)
-      : rows(the_rows),
-        first(first_lane),
-        count(std::min(kBlockLanes, the_rows.count - first_lane)),
-        edge_bound(the_rows.edge_bound),
-        reach(the_rows.reach),
-        id(the_rows.id + first_lane) {}
-};
-
+template <class D>
 struct LaneVectors {
-  FloatVec x, y, z;
+  hn::Vec<D> x, y, z;
 };
-HWY_INLINE LaneVectors load_lanes(const float (&rows)[3][kBlockLanes], std::uint32_t lane) {
-  const Lanes8 f;
-  return {hn::Load(f, rows[0] + lane), hn::Load(f, rows[1] + lane), hn::Load(f, rows[2] + lane)};
-}
-HWY_INLINE LaneVectors load_lanes(const float (&rows)[3][kRowLanes], std::uint32_t lane) {
-  const Lanes8 f;
+template <class D, std::size_t kLanes>
+HWY_INLINE LaneVectors<D> load_lanes(D f, const float (&rows)[3][kLanes], std::uint32_t lane) {
   return {hn::Load(f, rows[0] + lane), hn::Load(f, rows[1] + lane), hn::Load(f, rows[2] + lane)};
 }
 
 /// A triangle's first vertex and the edges from it, each rounded once.
+template <class D>
 struct LaneTriangles {
-  LaneVectors v0, e1, e2;
+  LaneVectors<D> v0, e1, e2;
 };
-HWY_INLINE LaneTriangles load_triangles(const Block& block, std::uint32_t lane) {
-  return {load_lanes(block.v0, lane), load_lanes(block.e1, lane), load_lanes(block.e2, lane)};
+template <class D>
+HWY_INLINE LaneTriangles<D> load_triangles(D f, const Block& block, std::uint32_t lane) {
+  return {load_lanes(f, block.v0, lane), load_lanes(f, block.e1, lane), load_lanes(f, block.e2, lane)};
 }
-HWY_INLINE LaneTriangles load_triangles(const RowHalf& half, std::uint32_t lane) {
-  const auto edge = [](const LaneVectors& to, const LaneVectors& from) {
-    return LaneVectors{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
+template <class D>
+HWY_INLINE LaneTriangles<D> load_triangles(D f, const TriangleRows& rows, std::uint32_t lane) {
+  const auto edge = [](const LaneVectors<D>& to, const LaneVectors<D>& from) {
+    return LaneVectors<D>{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
   };
-  const LaneVectors v0 = load_lanes(half.rows.v[0], half.first + lane);
-  return {v0, edge(load_lanes(half.rows.v[1], half.first + lane), v0),
-          edge(load_lanes(half.rows.v[2], half.first + lane), v0)};
+  const LaneVectors<D> v0 = load_lanes(f, rows.v[0], lane);
+  return {v0, edge(load_lanes(f, rows.v[1], lane), v0), edge(load_lanes(f, rows.v[2], lane), v0)};
 }
 
-/// The ray's values in every lane, and the bounds that depend on the ray alone. Triangles are a Block or a RowHalf.
-class LeafTest {
+/// The ray's values in every lane, and the bounds that depend on the ray alone. Triangles are so many side by side.
+template <class Triangles, std::uint32_t kLanes>
+class LaneTest {
+  using Lanes = hn::CappedTag<float, kLanes>;
+  using Floats = hn::Vec<Lanes>;
+  using Mask = hn::Mask<Lanes>;
+
  public:
-  explicit LeafTest(const WalkRay& ray)
+  explicit LaneTest(const WalkRay& ray)
       : ray_(ray), edge_factor_(kNormBound * ray.length), start_reach_(std::abs(ray.tmin) * ray.length) {
-    const Lanes8 f;
+    const Lanes f;
     for (int k = 0; k < 3; ++k) {
       origin_[k] = hn::Set(f, ray.origin[k]);
       direction_[k] = hn::Set(f, ray.direction[k]);
@@ -105,20 +95,16 @@ class LeafTest {
   }
 
   /// How far the first vertices in a leaf's block can be from the origin of a ray that is in the leaf at time `t`.
-  template <class Triangles>
-  HWY_INLINE float reach(const Triangles& block, float t) const {
-    return std::abs(t) * ray_.length + block.reach;
-  }
+  HWY_INLINE float reach(const Triangles& block, float t) const { return std::abs(t) * ray_.length + block.reach; }
 
   /// Tests a block none of whose first vertices is farther than `reach` from the origin, for hits before `tmax`.
-  template <class Triangles>
   HWY_INLINE LaneBits operator()(const Triangles& block, float reach, float tmax) const {
     LaneBits result;
-    const Lanes8 f;
+    const Lanes f;
     const float error = edge_factor_ * block.edge_bound * (2 * reach + block.edge_bound) + kTinyEdge;
     const auto reject_below = hn::Set(f, kMissFactor * error);
-    for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const LaneTriangles triangles = load_triangles(block, lane);
+    for (std::uint32_t lane = 0; lane < kLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const LaneTriangles<Lanes> triangles = load_triangles(f, block, lane);
       const Values x = evaluate(triangles);
       const auto smallest = hn::Min(hn::Min(x.u, x.v), x.w);
       const auto open = hn::Ge(smallest, reject_below);
@@ -132,12 +118,11 @@ class LeafTest {
   }
 
   /// Sharper bounds, lane by lane, for what the block's bound left open. Only `lanes` are looked at.
-  template <class Triangles>
   HWY_NOINLINE LaneBits with_permanents(const Triangles& block, std::uint32_t lanes) const {
     LaneBits result;
-    const Lanes8 f;
-    for (std::uint32_t lane = 0; lane < kBlockLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f)))
-      decide_by_permanents(load_triangles(block, lane), lane, result);
+    const Lanes f;
+    for (std::uint32_t lane = 0; lane < kLanes; lane += static_cast<std::uint32_t>(hn::Lanes(f)))
+      decide_by_permanents(load_triangles(f, block, lane), lane, result);
     result.hit &= lanes;
     result.undecided &= lanes;
     return result;
@@ -146,18 +131,18 @@ class LeafTest {
  private:
   /// det without its sign, and U, V, W and T with that sign taken out. T is completed on demand.
   struct Values {
-    FloatVec det, u, v, w;
-    FloatVec sign;
-    FloatVec q[3];
+    Floats det, u, v, w;
+    Floats sign;
+    Floats q[3];
   };
 
-  static FloatVec dot(FloatVec ax, FloatVec ay, FloatVec az, FloatVec bx, FloatVec by, FloatVec bz) {
+  static Floats dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
     return hn::MulAdd(az, bz, hn::MulAdd(ay, by, hn::Mul(ax, bx)));
   }
-  static FloatVec cross_term(FloatVec a, FloatVec b, FloatVec c, FloatVec d) { return hn::MulSub(a, b, hn::Mul(c, d)); }
+  static Floats cross_term(Floats a, Floats b, Floats c, Floats d) { return hn::MulSub(a, b, hn::Mul(c, d)); }
 
-  HWY_INLINE Values evaluate(const LaneTriangles& triangles) const {
-    const Lanes8 f;
+  HWY_INLINE Values evaluate(const LaneTriangles<Lanes>& triangles) const {
+    const Lanes f;
     const auto [e1x, e1y, e1z] = triangles.e1;
     const auto [e2x, e2y, e2z] = triangles.e2;
     const auto sx = hn::Sub(origin_[0], triangles.v0.x);
@@ -179,14 +164,14 @@ class LeafTest {
     return x;
   }
 
-  HWY_INLINE FloatVec time_numerator(const LaneTriangles& triangles, const Values& x) const {
+  HWY_INLINE Floats time_numerator(const LaneTriangles<Lanes>& triangles, const Values& x) const {
     return hn::Xor(dot(triangles.e2.x, triangles.e2.y, triangles.e2.z, x.q[0], x.q[1], x.q[2]), x.sign);
   }
 
-  HWY_INLINE void decide_times(const LaneTriangles& triangles, float edge_bound, std::uint32_t lane, const Values& x,
-                               FloatVec smallest, FloatMask open, float error, float reach, float tmax,
+  HWY_INLINE void decide_times(const LaneTriangles<Lanes>& triangles, float edge_bound, std::uint32_t lane,
+                               const Values& x, Floats smallest, Mask open, float error, float reach, float tmax,
                                LaneBits& result) const {
-    const Lanes8 f;
+    const Lanes f;
     const float square = kNormBound * edge_bound * edge_bound;
     const float start_error = square * (reach + start_reach_) + kTinyTime;
     const float end_error = square * (reach + std::abs(tmax) * ray_.length) + kTinyTime;
@@ -197,20 +182,20 @@ class LeafTest {
     const auto hit = hn::And(hn::Gt(smallest, e), hn::And(hn::Gt(after_start, ea), hn::Gt(before_end, eb)));
     const auto outside = hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)));
     const auto missed = hn::And(hn::Gt(x.det, e), outside);
-    const std::uint32_t hit_bits = bits_of(hit);
+    const std::uint32_t hit_bits = mask_bits(f, hit);
     result.hit |= hit_bits << lane;
-    result.undecided |= (bits_of(hn::AndNot(missed, open)) & ~hit_bits) << lane;
+    result.undecided |= (mask_bits(f, hn::AndNot(missed, open)) & ~hit_bits) << lane;
   }
 
-  static FloatVec abs_dot(FloatVec ax, FloatVec ay, FloatVec az, FloatVec bx, FloatVec by, FloatVec bz) {
+  static Floats abs_dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
     return dot(hn::Abs(ax), hn::Abs(ay), hn::Abs(az), bx, by, bz);
   }
-  static FloatVec abs_cross_term(FloatVec a, FloatVec b, FloatVec c, FloatVec d) {
+  static Floats abs_cross_term(Floats a, Floats b, Floats c, Floats d) {
     return hn::Add(hn::Abs(hn::Mul(a, b)), hn::Abs(hn::Mul(c, d)));
   }
 
-  void decide_by_permanents(const LaneTriangles& triangles, std::uint32_t lane, LaneBits& result) const {
-    const Lanes8 f;
+  void decide_by_permanents(const LaneTriangles<Lanes>& triangles, std::uint32_t lane, LaneBits& result) const {
+    const Lanes f;
     const Values x = evaluate(triangles);
     const auto t = time_numerator(triangles, x);
     const auto [e1x, e1y, e1z] = triangles.e1;
@@ -240,16 +225,19 @@ class LeafTest {
     const auto missed =
         hn::Or(hn::Lt(smallest, hn::Mul(e, hn::Set(f, kMissFactor))),
                hn::And(hn::Gt(x.det, e), hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)))));
-    result.hit |= bits_of(hit) << lane;
-    result.undecided |= (~(bits_of(hit) | bits_of(missed)) & ((1u << hn::Lanes(f)) - 1)) << lane;
+    result.hit |= mask_bits(f, hit) << lane;
+    result.undecided |= (~(mask_bits(f, hit) | mask_bits(f, missed)) & ((1u << hn::Lanes(f)) - 1)) << lane;
   }
 
   const WalkRay& ray_;
   float edge_factor_;
   float start_reach_;
-  FloatVec origin_[3];
-  FloatVec direction_[3];
+  Floats origin_[3];
+  Floats direction_[3];
 };
+
+using LeafTest = LaneTest<Block, kBlockLanes>;
+using RowTest = LaneTest<TriangleRows, kRowLanes>;
 
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail

@@ -40,13 +40,13 @@ HWY_INLINE bool note_blocker(Counts& counts, const Block& block, std::uint32_t l
   return counts.blocked_by(block, lane);
 }
 template <class Counts>
-HWY_INLINE bool note_blocker(Counts&, const RowHalf&, std::uint32_t) {
+HWY_INLINE bool note_blocker(Counts&, const TriangleRows&, std::uint32_t) {
   return true;
 }
 
 /// Does the block hold a triangle that blocks the ray? No first vertex in it is farther than `reach` from the origin.
-template <class Triangles, class Counts>
-HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+template <class Test, class Triangles, class Counts>
+HWY_INLINE bool block_blocks(const SceneView& scene, const Filter& filter, const Ray& ray, const Test& test,
                              const WalkRay& walk_ray, const Triangles& block, float reach, Counts& counts) {
   counts.primitives(block.count);
   LaneBits lanes = test(block, reach, walk_ray.tmax);
@@ -93,8 +93,8 @@ inline float time_after(const OrderedHit& hit, double time_scale) {
 }
 
 /// Offers the block's possible hits; `limit` is the time beyond which nothing can come first any more.
-template <class Triangles, class Counts>
-HWY_INLINE void block_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const LeafTest& test,
+template <class Test, class Triangles, class Counts>
+HWY_INLINE void block_closest(const SceneView& scene, const Filter& filter, const Ray& ray, const Test& test,
                               const WalkRay& walk_ray, const Triangles& block, float reach, Nearest& nearest,
                               float& limit, Counts& counts) {
   counts.primitives(block.count);
