@@ -34,6 +34,7 @@ struct __attribute__((visibility("hidden"))) Scene::Impl {
   detail::Box bounds;
   detail::Box placed_bounds;  ///< without the instances
   detail::TriangleBvh bvh;
+  detail::FoldedBvh folded;
   std::optional<detail::LazyTree> tree;  ///< from commit on
   detail::InstanceTree instances;        ///< those that stay instances
   BuildStats stats;
@@ -178,8 +179,8 @@ Status Scene::add_instance(const Instance& instance, std::uint32_t* mesh_id) {
 void Scene::Impl::make_view() {
   bool all_plain = true;
   for (const detail::MeshRecord& m : meshes) all_plain &= m.mask != 0 && !m.opacity.opaque;
-  view = {&tree->tree(), triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(), meshes.size(),
-          all_plain,     nullptr,          &*tree,      &bvh};
+  view = {&tree->tree(), triangles.data(), kept.data(), kept.size(), mesh_of.data(), meshes.data(),
+          meshes.size(), all_plain,        nullptr,     &*tree,      &bvh,           &folded};
 }
 
 void Scene::Impl::build(const BuildOptions& options) {
@@ -188,11 +189,12 @@ void Scene::Impl::build(const BuildOptions& options) {
   const detail::Tree& around = tree->tree();
   bvh = detail::TriangleBvh(triangles.data(), kept.data(), kept.size(), around.scale_exponent, around.eps,
                             options.executor);
+  folded = detail::FoldedBvh(bvh);
   stats.triangle_bytes = triangles.size() * sizeof(detail::Triangle);
   instances.build(options.executor);
   placed_bounds = bounds;
   bounds.extend(instances.bounds());
-  stats.box_bytes = bvh.bytes();
+  stats.box_bytes = bvh.bytes() + folded.bytes();
   stats.instances = instances.size();
   stats.instance_bytes = instances.bytes();
   stats.bytes = stats.triangle_bytes + stats.box_bytes + stats.instance_bytes +

@@ -8,11 +8,12 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
-#include "kernels/bvh_walk-inl.h"
+#include "kernels/bvh_kernel-inl.h"
 #include "kernels/group-inl.h"
 #include "kernels/indexed_walk-inl.h"
 #include "kernels/light_trace-inl.h"
 #include "kernels/link_walk-inl.h"
+#include "kernels/near_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -67,8 +68,7 @@ class EachRay {
       IndexedKernel::State state(indexed_);
       return IndexedKernel::occluded(indexed_, filter_, ray, state, counts);
     }
-    if (tile_.scene.lazy_tree->is_built())
-      return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
+    if (!tile_.tables.view) return TreeKernel<StackWalk>::occluded(tile_.scene, filter_, ray, no_state_, counts);
     return BvhKernel::occluded(tile_.scene, filter_, ray, no_state_, counts);
   }
 
@@ -92,6 +92,7 @@ class EachRay {
 template <class Counts>
 const WideTree* find_wide(const FrameTile& tile) {
   if (!tile.tables.view) return tile.tables.wide;
+  if (!go_together(tile.rays.rays, *tile.scene.tree)) return nullptr;
   return !std::is_same_v<Counts, NoCounts> ? tile.tables.view->need_wide()
                                            : tile.tables.view->earn_wide(tile.rays.rays.count);
 }

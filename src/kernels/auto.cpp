@@ -12,9 +12,10 @@
 #include <hwy/highway.h>
 
 #include "kernels/batch-inl.h"
-#include "kernels/bvh_walk-inl.h"
+#include "kernels/bvh_kernel-inl.h"
 #include "kernels/closest_trace-inl.h"
 #include "kernels/light_trace-inl.h"
+#include "kernels/near_rays.h"
 #include "kernels/shaft_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,7 +42,7 @@ struct AutoKernel {
       if (trace<CountEach>(scene, group)) {
         counts.occluded += sums.counts.occluded;
         counts.unoccluded += sums.counts.unoccluded;
-      } else if (const WideTree* const wide = scene.side ? table(scene).need_wide() : nullptr) {
+      } else if (const WideTree* const wide = wants_groups(scene, part) ? table(scene).need_wide() : nullptr) {
         Others::occluded_counted(with_side(scene, wide), part, out + begin, here, counts);
       } else {
         occluded_each_counted<BvhKernel>(scene, part, out + begin, here, counts);
@@ -54,19 +55,13 @@ struct AutoKernel {
       QueryOptions here = options;
       if (here.skip) here.skip += first;
       const RaySpan part{&rays[first], count, rays.stride};
-      if (scene.lazy_tree->earn(count))
-        closest_each<TreeKernel<StackWalk>>(scene, part, out + first, here);
-      else
-        closest_each<BvhKernel>(scene, part, out + first, here);
+      closest_each<BvhKernel>(scene, part, out + first, here);
     });
   }
 
   static void closest_counted(const SceneView& scene, RaySpan rays, Hit* out, const QueryOptions& options,
                               RayCounts& counts) {
-    if (scene.lazy_tree->need())
-      closest_each_counted<TreeKernel<StackWalk>>(scene, rays, out, options, counts);
-    else
-      closest_each_counted<BvhKernel>(scene, rays, out, options, counts);
+    closest_each_counted<BvhKernel>(scene, rays, out, options, counts);
   }
 
  private:
@@ -77,8 +72,8 @@ struct AutoKernel {
 
   static const LightViewTable& table(const SceneView& scene) { return *static_cast<const LightViewTable*>(scene.side); }
 
-  static const WideTree* earn_wide(const SceneView& scene, std::size_t rays) {
-    return scene.side ? table(scene).earn_wide(rays) : nullptr;
+  static bool wants_groups(const SceneView& scene, const RaySpan& rays) {
+    return scene.side && rays.count >= Others::kFewRays && go_together(rays, *scene.tree);
   }
 
   static SceneView with_side(const SceneView& scene, const WideTree* wide) {
@@ -98,19 +93,12 @@ struct AutoKernel {
     return ShaftTrace(scene, table(scene))
         .trace(
             rays, [&](std::size_t first, std::size_t count) { answer(answer_others, first, count); },
-            [&](std::size_t first, std::size_t count) { answer(answer_alone, first, count); });
+            [&](std::size_t first, std::size_t count) { answer(occluded_each<BvhKernel>, first, count); });
   }
 
   static void answer_others(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-    if (const WideTree* const wide = earn_wide(scene, rays.count))
+    if (const WideTree* const wide = wants_groups(scene, rays) ? table(scene).earn_wide(rays.count) : nullptr)
       Others::occluded(with_side(scene, wide), rays, out, options);
-    else
-      occluded_each<BvhKernel>(scene, rays, out, options);
-  }
-
-  static void answer_alone(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
-    if (const WideTree* const wide = earn_wide(scene, rays.count))
-      occluded_each<Others::Single>(with_side(scene, wide), rays, out, options);
     else
       occluded_each<BvhKernel>(scene, rays, out, options);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each ray by itself in the hierarchy of boxes, which a scene always has: see bvh_walk-inl.h.
+// Each ray by itself in the hierarchy of boxes, which a scene always has: see bvh_kernel-inl.h.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kernels/bvh.cpp"
@@ -7,7 +7,7 @@
 #include <hwy/foreach_target.h>  // compiles this file once for each instruction set
 #include <hwy/highway.h>
 
-#include "kernels/bvh_walk-inl.h"
+#include "kernels/bvh_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {

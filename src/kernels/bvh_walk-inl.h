@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray through the hierarchy of boxes, four at a time, near ones first. A box is grown by eps, which covers the
-// rounding of its planes' times as it does for cells (walk-inl.h): a hit lies within the float interval of every box
-// above its triangle.
+// A walk of the hierarchy of boxes, four at a time, near ones first, for whatever can tell which boxes it crosses and
+// when. A box is grown by eps, which covers the rounding of its planes' times as it does for cells (walk-inl.h): a hit
+// lies within the float interval of every box above its triangle.
 
 #if defined(UMBRIX_KERNELS_BVH_WALK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_BVH_WALK_INL_H_
@@ -27,42 +27,8 @@ struct CrossedBoxes {
   std::uint32_t lanes = 0;
 };
 
-/// A ray's float times at boxes.
-class BoxTimes {
- public:
-  using Time = float;
-
-  BoxTimes(const WalkRay& ray, Interval at) : ray_(ray), at_(at) {}
-
-  float start() const { return at_.t0; }
-
-  HWY_INLINE void cross(const BvhNode& node, CrossedBoxes<float, kBvhWidth>& out) const {
-    const Lanes4 f;
-    out.lanes = 0;
-    for (std::uint32_t i = 0; i < kBvhWidth; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      auto t0 = hn::Set(f, at_.t0), t1 = hn::Set(f, at_.t1);
-      for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        const bool down = ray_.far_low[axis] != 0;
-        const auto origin = hn::Set(f, ray_.origin[axis]), inverse = hn::Set(f, ray_.inverse[axis]);
-        const auto entry = hn::Load(f, (down ? node.upper : node.lower)[axis] + i);
-        const auto exit = hn::Load(f, (down ? node.lower : node.upper)[axis] + i);
-        t0 = hn::Max(t0, hn::Mul(hn::Sub(entry, origin), inverse));
-        t1 = hn::Min(t1, hn::Mul(hn::Sub(exit, origin), inverse));
-      }
-      alignas(8) std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(f, hn::Le(t0, t1), bits);
-      out.lanes |= static_cast<std::uint32_t>(bits[0]) << i;
-      hn::Store(t0, f, out.t0 + i);
-    }
-  }
-
- private:
-  const WalkRay& ray_;
-  Interval at_;
-};
-
-/// Visits the rows that the ray may meet: rows(triangles, t0) returns true to stop. What starts beyond `limit` is left
-/// out; it is read anew for each. `times` tells of a node which boxes the ray crosses, as BoxTimes does.
+/// Visits the rows that may be met: rows(triangles, t0) returns true to stop. What starts beyond `limit` is left out;
+/// it is read anew for each. times.cross(node, out) tells which of a node's boxes are crossed.
 template <class Times, class Rows, class Counts>
 HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, const Times& times, const typename Times::Time& limit, Rows&& rows,
                          Counts& counts) {
@@ -97,73 +63,6 @@ HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, const Times& times, const typen
     } while (here.t0 > limit);
   }
 }
-
-/// A kernel of its own, and what others do while there is no tree.
-struct BvhKernel {
-  using State = NoState;
-
-  template <class Counts>
-  static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State&,
-                                  Counts& counts) {
-    if (HWY_UNLIKELY(!is_valid(ray))) {
-      counts.invalid_ray();
-      return false;
-    }
-    WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
-      return far_occluded(scene, filter, ray, counts);
-    const Interval at = clip_to_root(walk_ray, *scene.tree);
-    if (!(at.t0 <= at.t1)) return false;
-    const RowTest test(walk_ray);
-    const auto rows = [&](const TriangleRows& triangles, float t0) {
-      return block_blocks(scene, filter, ray, test, walk_ray, triangles, test.reach(triangles, t0), counts);
-    };
-    return bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), walk_ray.tmax, rows, counts);
-  }
-
-  template <class Counts>
-  static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray, State&, Nearest& nearest,
-                                 Counts& counts) {
-    if (HWY_UNLIKELY(!is_valid(ray))) {
-      counts.invalid_ray();
-      return;
-    }
-    WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far)) {
-      far_closest(scene, filter, ray, nearest, counts);
-      return;
-    }
-    const Interval at = clip_to_root(walk_ray, *scene.tree);
-    if (!(at.t0 <= at.t1)) return;
-    const RowTest test(walk_ray);
-    float limit = walk_ray.tmax;
-    const auto rows = [&](const TriangleRows& triangles, float t0) {
-      block_closest(scene, filter, ray, test, walk_ray, triangles, test.reach(triangles, t0), nearest, limit, counts);
-      return false;
-    };
-    bvh_walk(*scene.bvh, BoxTimes(walk_ray, at), limit, rows, counts);
-  }
-
- private:
-  // Rays that float cannot place, as in far_ray.h.
-  template <class Counts>
-  static bool far_occluded(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts) {
-    const DefaultFloatMode mode;
-    const auto visit = [&](std::uint32_t id) { return blocks(scene, filter, ray, id, counts); };
-    return FarRay(scene, ray).visit_candidates(*scene.bvh, visit, counts);
-  }
-
-  template <class Counts>
-  static void far_closest(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest,
-                          Counts& counts) {
-    const DefaultFloatMode mode;
-    const auto visit = [&](std::uint32_t id) {
-      nearest.offer(scene, filter, ray, id, counts);
-      return false;
-    };
-    FarRay(scene, ray).visit_candidates(*scene.bvh, visit, counts);
-  }
-};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace umbrix::detail

@@ -16,7 +16,7 @@
 #include <new>
 
 #include "core/float_mode.h"
-#include "kernels/bvh_walk-inl.h"
+#include "kernels/bvh_kernel-inl.h"
 #include "kernels/light_packets-inl.h"
 #include "kernels/light_rays-inl.h"
 #include "kernels/light_walk-inl.h"

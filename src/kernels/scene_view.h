@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/triangle_test.h"
+#include "index/folded_bvh.h"
 #include "index/side_table.h"
 #include "index/triangle_bvh.h"
 #include "kernels/counts.h"
@@ -36,6 +37,7 @@ struct SceneView {
   const SideTable* side = nullptr;      ///< of the kernel that is asked, if it was prepared
   const LazyTree* lazy_tree = nullptr;  ///< of kernels that do not need the tree: to be asked before its nodes are read
   const TriangleBvh* bvh = nullptr;
+  const FoldedBvh* folded = nullptr;
 };
 
 class InstanceTree;
