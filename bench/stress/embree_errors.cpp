@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,21 @@ WrongRays count_embree_wrong(const cases::CaseData& data, const std::vector<Ray>
   return result;
 }
 
+// Where Embree splits triangles it divides by differences of coordinates. In scenes this small it flushes some to zero,
+// and then ends the program.
+bool splits_are_safe(const std::vector<oracle::Triangle>& triangles) {
+  constexpr float kSmall = 0x1p-90f;
+  float largest = 0;
+  for (const oracle::Triangle& t : triangles) {
+    for (const auto& v : t.v) {
+      for (const float x : v) {
+        if (std::isfinite(x)) largest = std::max(largest, std::abs(x));
+      }
+    }
+  }
+  return largest > kSmall;
+}
+
 }  // namespace
 
 WrongRays count_wrong(const std::vector<std::uint8_t>& answers, const std::vector<std::uint8_t>& truth) {
@@ -78,6 +94,7 @@ Status count_embree_errors(const cases::CaseData& data, const std::vector<std::u
   out.embree_rays += rays.size();
   for (const bool robust : {true, false}) {
     embree::Options options;
+    options.quality = splits_are_safe(data.triangles) ? embree::Quality::high : embree::Quality::medium;
     options.robust = robust;
     embree::EmbreeScene scene;
     if (Status status = scene.build({judge::mesh_of(data.triangles)}, options); !status) return status;

@@ -20,6 +20,7 @@
 #include "kernels/light_packets-inl.h"
 #include "kernels/light_rays-inl.h"
 #include "kernels/light_walk-inl.h"
+#include "kernels/near_rays.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -34,12 +35,13 @@ class LightTrace {
  public:
   LightTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
 
-  /// Answers all rays. False, with nothing done, if they are not for it: there are few, they do not end at one light,
-  /// the light sees each among very many triangles, or there is no memory.
+  /// Answers all rays. False, with nothing done, if they are not for it: there are few, or not very many and those far
+  /// apart, they do not end at one light, the light sees each among very many triangles, or there is no memory.
   bool trace(const GroupRays& rays) {
     if (rays.rays.count < kFewestRays || rays.rays.count > kMostViewRays) return false;
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || table_.bvh().empty()) return false;
     const DefaultFloatMode mode;
+    if (rays.rays.count < kManyRays && !start_densely(rays.rays, *scene_.tree)) return false;
     try {
       std::unique_ptr<LightViewScratch> scratch = table_.borrow();
       const bool is_done = trace(rays, *scratch);
@@ -54,6 +56,8 @@ class LightTrace {
   static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
   /// Fewer rays cost less otherwise.
   static constexpr std::size_t kFewestRays = 128;
+  /// So many are near each other wherever they start; fewer that start far apart had better walk alone.
+  static constexpr std::size_t kManyRays = 3u << 14;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.

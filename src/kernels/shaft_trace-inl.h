@@ -174,7 +174,7 @@ class ShaftPackets {
   struct Unsure {
     std::uint32_t id, lanes;
   };
-  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 1024, kNone = ~0u;
+  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 256, kNone = ~0u;
 
   const SceneView& scene_;
   const GroupRays& rays_;
@@ -215,7 +215,25 @@ class ShaftTrace {
  private:
   static constexpr std::size_t kFewestRays = 64;
   static constexpr int kMostScale = 60;
-  static constexpr std::size_t kMostMet = 256;
+  static constexpr std::size_t kMostMet = 64;
+
+  /// After batches that shafts were not for, some are not tried: twice as many each time.
+  class Patience {
+   public:
+    bool is_waiting() {
+      if (waiting_ == 0) return false;
+      --waiting_;
+      return true;
+    }
+    void note(bool is_good) {
+      wait_ = is_good ? 0 : std::min(2 * wait_ + 1, kMostWait);
+      waiting_ = wait_;
+    }
+
+   private:
+    static constexpr std::uint32_t kMostWait = 15;
+    std::uint32_t wait_ = 0, waiting_ = 0;
+  };
 
   /// Are there five rays from a point, or more, on average? From somewhere among n there are (n + 1) / 2 left.
   static bool comes_in_bundles(const RaySpan& rays) {
@@ -237,8 +255,14 @@ class ShaftTrace {
     ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
     scratch.bundles.resize(kBatchBundles);
     std::memset(rays.out, 0, rays.rays.count);
+    Patience patience;
     for (std::size_t next = 0; next < rays.rays.count;) {
       const std::size_t first = next;
+      if (patience.is_waiting()) {
+        next = std::min(rays.rays.count, first + kBatchBundles * kRowLanes);
+        alone(first, next - first);
+        continue;
+      }
       std::uint32_t count = 0;
       while (count < kBatchBundles && next < rays.rays.count) {
         RayBundle& b = scratch.bundles[count];
@@ -255,10 +279,12 @@ class ShaftTrace {
       for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
         cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
       for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i].first, scratch.bundles[i].count);
-      if (walk.walk(kMostMet * count))
+      const bool is_good = walk.walk(kMostMet * count);
+      if (is_good)
         packets.trace(alone);
       else
         alone(first, next - first);
+      patience.note(is_good && 4 * scratch.wide.size() < 3 * count);
     }
   }
 
