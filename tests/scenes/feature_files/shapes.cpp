@@ -39,8 +39,6 @@ Stage animated_morph() {
   return s;
 }
 
-int joint(Stage& s, double x, double y) { return s.root({{"translation", {x, y, 0}}}); }
-
 /// A square that follows a joint at (1.5, 0), below one that follows a joint at (1.5, 1), which turns by a quarter to
 /// the right. Where the mesh's own node is does not matter.
 Stage simple_skin() {
@@ -73,16 +71,15 @@ Stage simple_skin() {
 Stage rigged_simple() {
   Stage s(3, 2);
   const int material = s.material(unlit(1, 1, 1));
-  std::vector<std::uint16_t> first(16, 0), both(16, 0);
+  std::vector<std::uint16_t> first(16, 0), second(16, 0), both(16, 0);
   std::vector<std::uint8_t> fifths(16, 0);
   std::vector<float> half(16, 0);
   for (std::size_t v = 0; v < 16; v += 4) {
-    both[v + 1] = 1;
+    second[v] = both[v + 1] = 1;
     fifths[v] = 51;
     fifths[v + 1] = 204;
     half[v] = 0.5f;
   }
-  std::vector<std::uint16_t> second(16, 1);
   const int halves = s.floats(half, 4);
   const json by_halves = {{"JOINTS_0", s.integers(first, 5123, 4)},
                           {"WEIGHTS_0", halves},
@@ -94,7 +91,9 @@ Stage rigged_simple() {
   for (const json& attributes : {by_halves, by_fifths}) {
     s.root({{"mesh", s.mesh(s.square(material, attributes))}, {"skin", 0}});
   }
-  const int stays = joint(s, 0, 0), moved = joint(s, 1, 0);
+  const int moved = static_cast<int>(s.json["nodes"].size());
+  s.json["nodes"].push_back({{"translation", {1, 0, 0}}});
+  const int stays = s.root({{"children", {moved}}});
   s.json["skins"] = {{{"joints", {stays, moved}}}};
   return s;
 }

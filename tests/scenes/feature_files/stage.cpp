@@ -130,6 +130,13 @@ int Stage::texture(std::uint32_t width, std::uint32_t height, std::uint32_t chan
   return static_cast<int>(json["textures"].size()) - 1;
 }
 
+void Stage::animate(std::size_t animation, int node, const std::string& path, const std::vector<float>& times,
+                    const std::vector<float>& values, const std::string& interpolation) {
+  Gltf::animate(animation, node, path, times, values, interpolation);
+  bound(json["animations"][animation]["samplers"].back()["input"], nlohmann::json::array({times.front()}),
+        nlohmann::json::array({times.back()}));
+}
+
 int Stage::light(const nlohmann::json& light, const nlohmann::json& node) {
   use("KHR_lights_punctual");
   nlohmann::json& lights = json["extensions"]["KHR_lights_punctual"]["lights"];

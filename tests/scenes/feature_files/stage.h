@@ -57,6 +57,10 @@ struct Stage : io::testing::Gltf {
   int texture(std::uint32_t width, std::uint32_t height, std::uint32_t channels,
               const std::vector<std::uint8_t>& pixels, const nlohmann::json& sampler = {{"magFilter", 9728}});
 
+  /// As Gltf's, with bounds.
+  void animate(std::size_t animation, int node, const std::string& path, const std::vector<float>& times,
+               const std::vector<float>& values, const std::string& interpolation = "LINEAR");
+
   int light(const nlohmann::json& light, const nlohmann::json& node = nlohmann::json::object());
   /// A directional light along -z that makes white as bright as 1.
   void light_straight_on();
