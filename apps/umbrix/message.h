@@ -5,7 +5,7 @@
 
 namespace umbrix::app {
 
-/// One line on stderr, "umbrix: ..." Control characters (from file names, say) are shown as '?', so that no file can
+/// One line on stderr, and in the log file if there is one, "umbrix: ..." Control characters (from file names, say) are shown as '?', so that no file can
 /// play with the terminal.
 void say(const std::string& text);
 void say_error(const std::string& text);
