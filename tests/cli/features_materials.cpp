@@ -76,6 +76,9 @@ std::vector<FeatureCase> reflecting_cases() {
       // The top is cross(normal, tangent) times the handedness (section 3.7.2.1).
       {"NormalTangentMirrorTest.gltf", 5, 2,
        normals({1, 0, 0}, {0, -1, 0}, 1, 1) + normals({0, 1, 0}, {-1, 0, 0}, 1, 0)},
+      // What points along the tangent points to the top when that has turned by a quarter.
+      {"SkinMorphTangents.gltf", 2, 1,
+       squares({lit({-code(128), code(204), code(230)}, 1), lit({-code(128), code(204), code(230)}, 1)})},
   };
 }
 

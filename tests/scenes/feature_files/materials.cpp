@@ -37,12 +37,6 @@ Stage metal_rough_textures() {
 /// Texels that point straight up, right, left, to the top and to the bottom; the same with a scale of a half.
 const std::vector<std::uint8_t> kNormals = {128, 128, 255, 204, 128, 230, 51, 128, 230, 128, 204, 230, 128, 51, 230};
 
-/// From the direction (0.48, 0.6, 0.64).
-void add_slanted_light(Stage& s) {
-  s.light({{"type", "directional"}, {"intensity", 3.14159265}},
-          {{"matrix", {0.8, 0, -0.6, 0, -0.36, 0.8, -0.48, 0, 0.48, 0.6, 0.64, 0, 0, 0, 5, 1}}});
-}
-
 json with_normals(int texture, double scale = 1) {
   json out = lambert();
   out["normalTexture"] = {{"index", texture}};
@@ -60,7 +54,7 @@ Stage normal_tangents() {
   };
   wide(with_normals(texture), 1);
   wide(with_normals(texture, 0.5), 0);
-  add_slanted_light(s);
+  s.slanted_light();
   return s;
 }
 
@@ -82,7 +76,7 @@ Stage normal_tangents_mirrored() {
   };
   wide(1, 0, -1, 1);
   wide(0, 1, 1, 0);
-  add_slanted_light(s);
+  s.slanted_light();
   return s;
 }
 

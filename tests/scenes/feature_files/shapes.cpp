@@ -98,6 +98,29 @@ Stage rigged_simple() {
   return s;
 }
 
+/// Squares whose normal texture points along their tangents, which turn from x to y: with a joint, that takes the
+/// square to itself, and by a morph target.
+Stage tangents() {
+  Stage s(2, 1);
+  json lit = lambert();
+  lit["normalTexture"] = {{"index", s.texture(1, 1, 3, {204, 128, 230})}};
+  const int material = s.material(lit);
+  const int along_x = s.floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 4);
+  const json attributes = {{"NORMAL", deltas(s, 0, 0, 1)}, {"TANGENT", along_x}, {"TEXCOORD_0", s.texcoords()}};
+  json carried = s.square(material, attributes);
+  carried["attributes"]["JOINTS_0"] = s.integers(std::vector<std::uint8_t>(16, 0), 5121, 4);
+  carried["attributes"]["WEIGHTS_0"] = s.floats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, 4);
+  s.root({{"mesh", s.mesh(carried)}, {"skin", 0}});
+  const int joint = s.root({{"translation", {1, 0, 0}}, {"rotation", {0, 0, 0.70710678, 0.70710678}}});
+  s.json["skins"] = {{{"joints", {joint}}}};
+  json morphed = s.square(material, attributes);
+  morphed["targets"] = json::array({{{"TANGENT", deltas(s, -1, 1, 0)}}});
+  s.place(morphed, 1);
+  s.json["meshes"].back()["weights"] = {1};
+  s.slanted_light();
+  return s;
+}
+
 }  // namespace
 
 void add_shapes(Files& files) {
@@ -105,6 +128,7 @@ void add_shapes(Files& files) {
   files["AnimatedMorphCube.gltf"] = animated_morph().readable();
   files["SimpleSkin.gltf"] = simple_skin().readable();
   files["RiggedSimple.gltf"] = rigged_simple().readable();
+  files["SkinMorphTangents.gltf"] = tangents().readable();
 }
 
 }  // namespace umbrix::features

@@ -148,6 +148,11 @@ int Stage::light(const nlohmann::json& light, const nlohmann::json& node) {
 
 void Stage::light_straight_on() { light({{"type", "directional"}, {"intensity", 3.14159265}}); }
 
+void Stage::slanted_light() {
+  light({{"type", "directional"}, {"intensity", 3.14159265}},
+        {{"matrix", {0.8, 0, -0.6, 0, -0.36, 0.8, -0.48, 0, 0.48, 0.6, 0.64, 0, 0, 0, 5, 1}}});
+}
+
 std::string Stage::readable() const { return indented(nlohmann::json::parse(text()), 0) + "\n"; }
 
 }  // namespace umbrix::features

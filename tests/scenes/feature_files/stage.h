@@ -64,6 +64,8 @@ struct Stage : io::testing::Gltf {
   int light(const nlohmann::json& light, const nlohmann::json& node = nlohmann::json::object());
   /// A directional light along -z that makes white as bright as 1.
   void light_straight_on();
+  /// The same from the direction (0.48, 0.6, 0.64).
+  void slanted_light();
 
   void use(const std::string& extension, bool required = false);
 
