@@ -22,7 +22,9 @@ std::vector<FeatureCase> mesh_cases() {
       {"BoxInterleaved.gltf", 1, 1, squares({{0.4, 0.8, 0.2}})},
       {"SimpleSparseAccessor.gltf", 2, 1, squares({kWhite, kWhite})},
       // The normal of the last is (76, 0, 102), in light along the view.
-      {"MeshQuantization.gltf", 3, 1, squares({kWhite, kWhite, grey(102 / std::hypot(76, 102))})},
+      {"MeshQuantization.gltf", 4, 1,
+       squares({kWhite, kWhite, grey(102 / std::hypot(76, 102))}) +
+           std::vector<Probe>{{3.2, 0.3, kRed}, {3.8, 0.3, kGreen}}},
       // Colours of vertices are linear (section 3.7.2.1), bytes as well; between vertices they change evenly.
       {"VertexColorTest.gltf", 4, 1,
        squares({{0.5, 0.25, 1}, {188 / 255., 0, 1}, {0.5, 0.1, 0}}) +

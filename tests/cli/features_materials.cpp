@@ -100,9 +100,9 @@ std::string chance(const char* count) {
 }
 
 std::vector<FeatureCase> alpha_cases() {
-  // Blended: the mean of 16 samples in each of 24 pixels or more, which is off by 4 sqrt(alpha (1 - alpha) / 384) or
-  // less but for one time in 16000; and pictures are the same every time.
-  const double noise = 0.1;
+  // Blended: the mean of 16 samples in each of 64 pixels or more, which is off by less than 4 sqrt(alpha (1 - alpha) /
+  // 1024) but for one time in 16000; and pictures are the same every time.
+  const double noise = 0.063;
   const auto through = [](double alpha) { return Color{alpha, alpha, 1}; };
   return {
       // Alpha is 64 / 255 in the left halves and 191 / 255 in the right ones, then 1/4, then from 0 to 1.

@@ -31,14 +31,14 @@ Stage interpolations() {
   return s;
 }
 
-/// A square that shrinks below a node that moves by 2.
+/// A square that shrinks below a node that moves by 2, each by an animation of its own.
 Stage box_animated() {
   Stage s(4, 1);
   const int child = s.show(unlit(1, 1, 1), 1);
   s.json["scenes"][0]["nodes"].erase(1);
   const int parent = s.root({{"children", {child}}});
   s.animate(0, parent, "translation", {0, 1}, {0, 0, 0, 2, 0, 0});
-  s.animate(0, child, "scale", {0, 1}, {1, 1, 1, 0.5f, 0.5f, 1});
+  s.animate(1, child, "scale", {0, 1}, {1, 1, 1, 0.5f, 0.5f, 1});
   return s;
 }
 

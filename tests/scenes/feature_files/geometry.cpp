@@ -90,9 +90,10 @@ Stage sparse() {
   return s;
 }
 
-/// Positions in short, normalized unsigned short and normalized byte; a normal of bytes.
+/// Positions in short, normalized unsigned short and normalized byte; a normal of bytes; texture coordinates from 0 to
+/// 4096 in shorts, which a transform scales back.
 Stage quantized() {
-  Stage s(3, 1);
+  Stage s(4, 1);
   s.use("KHR_mesh_quantization", true);
   const int material = s.material(lambert());
   // Four values a vertex, of which the last fills up to a multiple of four bytes.
@@ -114,6 +115,12 @@ Stage quantized() {
   const int of_normals = s.accessor(bytes_of(normals), 5120, 4, "VEC3", 4);
   s.json["accessors"][static_cast<std::size_t>(of_normals)]["normalized"] = true;
   s.place(s.square(material, {{"POSITION", vertices(bytes_of(bytes), 5120, 4, 0, 127)}, {"NORMAL", of_normals}}), 2);
+  json textured = unlit(1, 1, 1);
+  textured["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", s.texture(2, 1, 3, {255, 0, 0, 0, 255, 0})},
+      {"extensions", {{"KHR_texture_transform", {{"scale", {1 / 4096., 1 / 4096.}}}}}}};
+  const int texcoords = s.integers(std::vector<std::uint16_t>{0, 4096, 4096, 4096, 4096, 0, 0, 0}, 5123, 2);
+  s.place(s.square(s.material(textured), {{"TEXCOORD_0", texcoords}}), 3);
   s.light_straight_on();
   return s;
 }
