@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves, between 0 and 1 second. Without --frames a scene is as its nodes say, or as its first key.
+// What moves, from 0 to 1 second or 2. Without --frames a scene is as its nodes say, or as its first key.
 #include <cmath>
 
 #include "feature_cases.h"
@@ -28,9 +28,10 @@ std::vector<FeatureCase> node_cases() {
        {{1, 0.6, kWhite}, {1.3, 0.45, kWhite}, {1.3, 0.1, kBlack}, {0.7, 0.45, kWhite}, {0.7, 0.1, kBlack}},
        frame("1", "2")},
       {"AnimatedTriangle.gltf", 2, 1, {{1.3, 0.3, kBlack}, {0.8, 0.1, kWhite}, {0.7, 0.6, kWhite}}, frame("1", "1")},
-      // At a quarter: not yet; 1/4; 3 / 16 - 2 / 64 of the way (appendix C.5), which is 2 long.
-      {"InterpolationTest.gltf", 3, 3, risen(0, 0) + risen(1, 0.5) + risen(2, 0.3125), frame("1", "4")},
-      {"InterpolationTest.gltf", 3, 3, risen(0, 2) + risen(1, 2) + risen(2, 2), frame("1", "1")},
+      // At a quarter: not yet; 1/4 of the way, which is 2 long; and by appendix C.5, with u = 1/4 and 2 seconds,
+      // 2 (3 u^2 - 2 u^3) - 1 * 2 (u^3 - u^2).
+      {"InterpolationTest.gltf", 3, 3, risen(0, 0) + risen(1, 0.5) + risen(2, 0.40625), frame("1", "2")},
+      {"InterpolationTest.gltf", 3, 3, risen(0, 2) + risen(1, 2) + risen(2, 2), frame("2", "1")},
       // The child is at 1 and shrinks there; its parent has moved it by 1 when it has three quarters of its size.
       {"BoxAnimated.gltf", 4, 1, squares({kBlack, kWhite, kBlack, kBlack})},
       {"BoxAnimated.gltf",

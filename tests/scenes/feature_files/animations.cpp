@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves nodes, from 0 to 1 second.
+// What moves nodes, from 0 to 1 second or 2.
 #include "stage.h"
 
 namespace umbrix::features {
@@ -15,15 +15,16 @@ Stage animated_triangle() {
   return s;
 }
 
-/// Squares that rise by 2: at once, evenly, along a spline without slope at its ends.
+/// Squares that rise by 2 in 2 seconds: at once, evenly, along a spline that is level at first and falls by 1 a second
+/// at the end. Its slopes before and after both keys must not count.
 Stage interpolations() {
   Stage s(3, 3);
   const int mesh = s.mesh(s.square(s.material(unlit(1, 1, 1))));
   const auto rising = [&](float x, const char* interpolation) {
     const int node = s.root({{"mesh", mesh}});
     std::vector<float> values = {x, 0, 0, x, 2, 0};
-    if (interpolation == std::string("CUBICSPLINE")) values = {0, 0, 0, x, 0, 0, 0, 0, 0, 0, 0, 0, x, 2, 0, 0, 0, 0};
-    s.animate(0, node, "translation", {0, 1}, values, interpolation);
+    if (interpolation == std::string("CUBICSPLINE")) values = {0, 9, 0, x, 0, 0, 0, 0, 0, 0, -1, 0, x, 2, 0, 0, 9, 0};
+    s.animate(0, node, "translation", {0, 2}, values, interpolation);
   };
   rising(0, "STEP");
   rising(1, "LINEAR");

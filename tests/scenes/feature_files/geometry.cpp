@@ -35,7 +35,7 @@ Stage primitive_modes() {
   Stage s(4, 1);
   const int material = s.material(glow(1, 1, 1));
   const int around = s.floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, 3);
-  const int zigzag = s.floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, 3);
+  const int zigzag = s.floats({1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 1, 0}, 3);
   s.place({{"attributes", {{"POSITION", zigzag}}}, {"mode", 5}, {"material", material}}, 0);
   s.place({{"attributes", {{"POSITION", around}}}, {"mode", 6}, {"material", material}}, 1);
   s.place(s.square(material), 2);
