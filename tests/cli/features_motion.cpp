@@ -29,8 +29,8 @@ std::vector<FeatureCase> node_cases() {
        frame("1", "2")},
       {"AnimatedTriangle.gltf", 2, 1, {{1.3, 0.3, kBlack}, {0.8, 0.1, kWhite}, {0.7, 0.6, kWhite}}, frame("1", "1")},
       // At a quarter: not yet; 1/4 of the way, which is 2 long; and by appendix C.5, with u = 1/4 and 2 seconds,
-      // 2 (3 u^2 - 2 u^3) - 1 * 2 (u^3 - u^2).
-      {"InterpolationTest.gltf", 3, 3, risen(0, 0) + risen(1, 0.5) + risen(2, 0.40625), frame("1", "2")},
+      // 2 (3 u^2 - 2 u^3) - 3 * 2 (u^3 - u^2).
+      {"InterpolationTest.gltf", 3, 3, risen(0, 0) + risen(1, 0.5) + risen(2, 0.59375), frame("1", "2")},
       {"InterpolationTest.gltf", 3, 3, risen(0, 2) + risen(1, 2) + risen(2, 2), frame("2", "1")},
       // The child is at 1 and shrinks there; its parent has moved it by 1 when it has three quarters of its size.
       {"BoxAnimated.gltf", 4, 1, squares({kBlack, kWhite, kBlack, kBlack})},

@@ -15,7 +15,7 @@ Stage animated_triangle() {
   return s;
 }
 
-/// Squares that rise by 2 in 2 seconds: at once, evenly, along a spline that is level at first and falls by 1 a second
+/// Squares that rise by 2 in 2 seconds: at once, evenly, along a spline that is level at first and falls by 3 a second
 /// at the end. Its slopes before and after both keys must not count.
 Stage interpolations() {
   Stage s(3, 3);
@@ -23,7 +23,7 @@ Stage interpolations() {
   const auto rising = [&](float x, const char* interpolation) {
     const int node = s.root({{"mesh", mesh}});
     std::vector<float> values = {x, 0, 0, x, 2, 0};
-    if (interpolation == std::string("CUBICSPLINE")) values = {0, 9, 0, x, 0, 0, 0, 0, 0, 0, -1, 0, x, 2, 0, 0, 9, 0};
+    if (interpolation == std::string("CUBICSPLINE")) values = {0, 9, 0, x, 0, 0, 0, 0, 0, 0, -3, 0, x, 2, 0, 0, 9, 0};
     s.animate(0, node, "translation", {0, 2}, values, interpolation);
   };
   rising(0, "STEP");
