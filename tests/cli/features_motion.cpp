@@ -10,12 +10,12 @@ namespace {
 /// The arguments for one frame, which is at a time of `frame` / `fps`.
 std::vector<std::string> frame(const char* number, const char* fps) { return {"--frames", number, "--fps", fps}; }
 
-/// A square of InterpolationTest that has risen by this: its lower and its upper edge.
+/// A square of InterpolationTest that has risen by this from 0.5: what is at its lower and its upper edge.
 std::vector<Probe> risen(double x, double by) {
-  return {{x + 0.3, by + 0.05, kWhite},
-          {x + 0.3, by + 0.95, kWhite},
-          {x + 0.3, by - 0.05, kBlack},
-          {x + 0.3, by + 1.05, kBlack}};
+  return {{x + 0.3, by + 0.55, kWhite},
+          {x + 0.3, by + 1.45, kWhite},
+          {x + 0.3, by + 0.45, kBlack},
+          {x + 0.3, by + 1.55, kBlack}};
 }
 
 std::vector<FeatureCase> node_cases() {
@@ -30,8 +30,8 @@ std::vector<FeatureCase> node_cases() {
       {"AnimatedTriangle.gltf", 2, 1, {{1.3, 0.3, kBlack}, {0.8, 0.1, kWhite}, {0.7, 0.6, kWhite}}, frame("1", "1")},
       // At a quarter: not yet; 1/4 of the way, which is 2 long; and by appendix C.5, with u = 1/4 and 2 seconds,
       // 2 (3 u^2 - 2 u^3) - 3 * 2 (u^3 - u^2).
-      {"InterpolationTest.gltf", 3, 3, risen(0, 0) + risen(1, 0.5) + risen(2, 0.59375), frame("1", "2")},
-      {"InterpolationTest.gltf", 3, 3, risen(0, 2) + risen(1, 2) + risen(2, 2), frame("2", "1")},
+      {"InterpolationTest.gltf", 3, 4, risen(0, 0) + risen(1, 0.5) + risen(2, 0.59375), frame("1", "2")},
+      {"InterpolationTest.gltf", 3, 4, risen(0, 2) + risen(1, 2) + risen(2, 2), frame("2", "1")},
       // The child is at 1 and shrinks there; its parent has moved it by 1 when it has three quarters of its size.
       {"BoxAnimated.gltf", 4, 1, squares({kBlack, kWhite, kBlack, kBlack})},
       {"BoxAnimated.gltf",

@@ -50,6 +50,11 @@ Color seen(const io::Image& image, const Probe& probe) {
   const double below = image.height / static_cast<double>(kPixels) - probe.y, half = probe.side / 2;
   Color sum{};
   int count = 0;
+  if (pixel(below - half) < 0 || pixel(below + half) >= image.height || pixel(probe.x - half) < 0 ||
+      pixel(probe.x + half) >= image.width) {
+    ADD_FAILURE() << "the picture does not show this place";
+    return sum;
+  }
   for (int y = pixel(below - half); y <= pixel(below + half); ++y) {
     for (int x = pixel(probe.x - half); x <= pixel(probe.x + half); ++x, ++count) {
       for (std::size_t c = 0; c < 3; ++c) {

@@ -18,12 +18,14 @@ Stage animated_triangle() {
 /// Squares that rise by 2 in 2 seconds: at once, evenly, along a spline that is level at first and falls by 3 a second
 /// at the end. Its slopes before and after both keys must not count.
 Stage interpolations() {
-  Stage s(3, 3);
+  Stage s(3, 4);
   const int mesh = s.mesh(s.square(s.material(unlit(1, 1, 1))));
   const auto rising = [&](float x, const char* interpolation) {
     const int node = s.root({{"mesh", mesh}});
-    std::vector<float> values = {x, 0, 0, x, 2, 0};
-    if (interpolation == std::string("CUBICSPLINE")) values = {0, 9, 0, x, 0, 0, 0, 0, 0, 0, -3, 0, x, 2, 0, 0, 9, 0};
+    std::vector<float> values = {x, 0.5f, 0, x, 2.5f, 0};
+    if (interpolation == std::string("CUBICSPLINE")) {
+      values = {0, 9, 0, x, 0.5f, 0, 0, 0, 0, 0, -3, 0, x, 2.5f, 0, 0, 9, 0};
+    }
     s.animate(0, node, "translation", {0, 2}, values, interpolation);
   };
   rising(0, "STEP");
