@@ -64,7 +64,7 @@ table_row() {  # target
 }
 
 mkdir -p "$run"/{corpus,logs,crashes,minimal}
-"$programs/umbrix_fuzz_seeds" "$run/seeds" scenes/*.glb
+"$programs/umbrix_fuzz_seeds" "$run/seeds" scenes/*.glb tests/scenes/features/*.gltf
 failed=0
 for target in "${targets[@]}"; do
   prepare "$target"

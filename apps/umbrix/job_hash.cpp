@@ -23,7 +23,7 @@ constexpr std::array kNotHashed = {
     "scene",     "output",        "setup",    "frames",     "size",       "crop",       "tile",         "pixel",
     "aov",       "heat-map",      "heat-max", "kernel",     "simd",       "threads",    "memory-limit", "build-quality",
     "overwrite", "skip-existing", "resume",   "checkpoint", "time-limit", "create-dir", "dry-run",      "progress",
-    "stats",     "quiet",         "verbose",  "config",     "help",       "preview",    "instances"};
+    "log-file",  "stats",         "quiet",    "verbose",    "config",     "help",       "preview",      "instances"};
 
 /// Options that change what one kind of file holds of the same pixels.
 constexpr std::array kOfExr = {"half", "float"};

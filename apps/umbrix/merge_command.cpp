@@ -9,6 +9,7 @@
 #include "config_file.h"
 #include "exit_code.h"
 #include "frame_list.h"
+#include "log_file.h"
 #include "memory_guard.h"
 #include "memory_limit.h"
 #include "message.h"
@@ -28,6 +29,7 @@ struct MergeArguments {
   int count = 0;  ///< of tiles, where they are not named
   ProgressStyle progress = ProgressStyle::automatic;
   bool quiet = false;
+  std::string log_file;  ///< empty: none
   std::uint64_t memory_limit = default_memory_limit();
   io::WriteOptions write;
 };
@@ -106,6 +108,7 @@ int merge_frame(const MergeArguments& a, const Merge& merge) {
 }
 
 int run(const MergeArguments& a) {
+  if (Status status = open_log(a.log_file); !status) return report_status(status);
   limit_memory(a.memory_limit);
   std::vector<Merge> merges;
   if (Status status = plan_merges(a, merges); !status) return report_status(status);
@@ -153,6 +156,7 @@ void add_merge_options(CLI::App& command, MergeArguments& a) {
   add_memory_limit_option(command, a.memory_limit);
   add_progress_option(command, a.progress);
   command.add_flag("-q,--quiet", a.quiet, "Only errors");
+  add_log_file_option(command, a.log_file);
   command.callback([&a] { check_together(a); });
 }
 

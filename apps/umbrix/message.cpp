@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "log_file.h"
+
 namespace umbrix::app {
 
 std::string printable(std::string text) {
@@ -16,8 +18,10 @@ std::string printable(std::string text) {
 
 // fputs, not fmt::print: a closed stderr must not end the program with an exception.
 void say(const std::string& text) {
-  std::fputs((printable(text) + '\n').c_str(), stderr);
+  const std::string line = printable(text) + '\n';
+  std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
+  log_line(line.c_str());
 }
 
 void say_error(const std::string& text) { say(fmt::format("umbrix: {}", text)); }

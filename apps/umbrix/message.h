@@ -5,8 +5,8 @@
 
 namespace umbrix::app {
 
-/// One line on stderr, "umbrix: ..." Control characters (from file names, say) are shown as '?', so that no file can
-/// play with the terminal.
+/// One line on stderr, and in the log file if there is one, "umbrix: ..." Control characters (from file names, say) are
+/// shown as '?', so that no file can play with the terminal.
 void say(const std::string& text);
 void say_error(const std::string& text);
 void say_warning(const std::string& text);

@@ -11,6 +11,7 @@
 #include "frame_list.h"
 #include "heat_map_files.h"
 #include "job_hash.h"
+#include "log_file.h"
 #include "output_pattern.h"
 #include "progress_option.h"
 #include "strict_number.h"
@@ -251,6 +252,7 @@ void add_talking_options(CLI::App& command, RenderArguments& a) {
                   "Image that shows the samples so far and is replaced after 1, 2, 4, 8, ... of --spp")
       ->type_name("FILE");
   CLI::Option* quiet = command.add_flag("-q,--quiet", a.quiet, "Only errors");
+  add_log_file_option(command, a.log_file);
   command.add_flag("-v,--verbose", a.verbose, "Also what in the scene is ignored")->excludes(quiet);
 }
 

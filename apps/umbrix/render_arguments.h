@@ -65,6 +65,7 @@ struct RenderArguments {
   bool quiet = false;
   bool verbose = false;
   ProgressStyle progress = ProgressStyle::automatic;
+  std::string log_file;         ///< empty: none
   std::string stats;            ///< file, "-" for stdout, or empty
   std::string picture_options;  ///< see job_hash.h
 };

@@ -12,6 +12,7 @@
 #include "frame_plan.h"
 #include "heat_map_files.h"
 #include "job_hash.h"
+#include "log_file.h"
 #include "memory_guard.h"
 #include "memory_plan.h"
 #include "message.h"
@@ -144,6 +145,7 @@ Status write_report(const RenderJob& job) {
 }
 
 Status run(const RenderArguments& a) {
+  if (Status status = open_log(a.log_file); !status) return status;
   RenderJob job(a);
   Checkpoints checkpoints(a.checkpoints, a.quiet);
   limit_memory(a.memory_limit);

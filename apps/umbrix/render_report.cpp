@@ -138,6 +138,7 @@ Json frames(const RenderJob& job) {
         {"frame", frame.number.value_or(0)},
         {"time", frame.seconds},
         {"outputs", output_files(frame.outputs, frame.heat_maps)},
+        {"tree_built", report.tree_built},
         {"moved_instances", report.moved_instances},
         {"moved_lights", report.moved_lights},
         {"seconds",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/alpha_range.h"
+#include "core/mesh_triangles.h"
 #include "umbrix/opacity.h"
 
 namespace umbrix {
@@ -24,8 +25,7 @@ const T* element(const T* first, std::size_t stride, std::size_t index) noexcept
 }
 
 std::uint32_t vertex_of(const AlphaMap& map, std::uint32_t triangle, std::size_t corner) noexcept {
-  if (!map.indices) return static_cast<std::uint32_t>(3 * triangle + corner);
-  return element(map.indices, map.index_stride, triangle)[corner];
+  return detail::vertex_of(map.indices, map.index_stride, triangle, corner);
 }
 
 /// A value at the corners, blended. Exact where all are equal.

@@ -7,29 +7,17 @@
 namespace umbrix::detail {
 namespace {
 
-/// The vertex numbers of one triangle.
-struct Corners {
-  std::uint32_t index[3];
-
-  Corners(const MeshView& mesh, std::size_t triangle) noexcept {
-    const char* const base = reinterpret_cast<const char*>(mesh.indices);
-    for (std::size_t k = 0; k < 3; ++k)
-      index[k] = mesh.indices ? reinterpret_cast<const std::uint32_t*>(base + triangle * mesh.index_stride)[k]
-                              : static_cast<std::uint32_t>(3 * triangle + k);
-  }
-};
-
-Vec3 vertex(const MeshView& mesh, std::uint32_t index) noexcept {
-  const float* const p = reinterpret_cast<const float*>(reinterpret_cast<const char*>(mesh.vertices) +
-                                                        static_cast<std::size_t>(index) * mesh.vertex_stride);
+Vec3 vertex(const MeshView& mesh, std::size_t triangle, std::size_t corner) noexcept {
+  const std::size_t number = vertex_of(mesh.indices, mesh.index_stride, triangle, corner);
+  const float* const p =
+      reinterpret_cast<const float*>(reinterpret_cast<const char*>(mesh.vertices) + number * mesh.vertex_stride);
   return {p[0], p[1], p[2]};
 }
 
 }  // namespace
 
 Triangle triangle_of(const MeshView& mesh, std::size_t i) noexcept {
-  const Corners corners(mesh, i);
-  return {{vertex(mesh, corners.index[0]), vertex(mesh, corners.index[1]), vertex(mesh, corners.index[2])}};
+  return {{vertex(mesh, i, 0), vertex(mesh, i, 1), vertex(mesh, i, 2)}};
 }
 
 std::vector<Triangle> triangles_of(const MeshView& mesh) {
@@ -50,11 +38,14 @@ Status check(const MeshView& mesh) {
     return {StatusCode::invalid_argument, "mesh: vertices and indices must be aligned to 4 bytes"};
   if (!mesh.indices && mesh.vertex_count / 3 < mesh.triangle_count)
     return {StatusCode::invalid_argument, "mesh: fewer than three vertices a triangle"};
-  for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i)
-    for (const std::uint32_t index : Corners(mesh, i).index)
+  for (std::size_t i = 0; i < mesh.triangle_count && mesh.indices; ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t index = vertex_of(mesh.indices, mesh.index_stride, i, corner);
       if (index >= mesh.vertex_count)
         return {StatusCode::invalid_argument, "mesh: triangle " + std::to_string(i) + " uses vertex " +
                                                   std::to_string(index) + " of " + std::to_string(mesh.vertex_count)};
+    }
+  }
   return {};
 }
 

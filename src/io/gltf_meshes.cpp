@@ -75,9 +75,11 @@ void drop_unused_vertices(Mesh& mesh, Shape* shape) {
   if (!shape) return;
   keep_used(shape->positions, place, kept);
   keep_used(shape->normals, place, kept);
+  keep_used(shape->tangents, place, kept);
   for (Shape::Target& target : shape->targets) {
     keep_used(target.positions, place, kept);
     keep_used(target.normals, place, kept);
+    keep_used(target.tangents, place, kept);
   }
   keep_used(shape->joints, place, kept, shape->influences);
   keep_used(shape->weights, place, kept, shape->influences);

@@ -287,7 +287,8 @@ class NodePlacer {
         continue;
       }
       const Mesh& stored = c_.scene.meshes[moved.mesh];
-      spend(2 * stored.positions.size() * sizeof(Float3) + stored.triangles.size() * sizeof stored.triangles[0],
+      spend(2 * stored.positions.size() * sizeof(Float3) + stored.tangents.size() * sizeof(Float4) +
+                stored.triangles.size() * sizeof stored.triangles[0],
             moved.mesh);
       Mesh copy = stored;
       moved.mesh = static_cast<std::uint32_t>(c_.scene.meshes.size());

@@ -39,6 +39,10 @@ void read_targets(const tinygltf::Primitive& primitive, Shape& shape, AccessorRe
     if (!shape.normals.empty()) {
       target.normals = read_deltas(primitive.targets[t], "NORMAL", AccessorUse::normal, vertices, reader, where);
     }
+    // Without the tangents' fourth component, so that they may be stored as normals are.
+    if (!shape.tangents.empty()) {
+      target.tangents = read_deltas(primitive.targets[t], "TANGENT", AccessorUse::normal, vertices, reader, where);
+    }
     shape.targets.push_back(std::move(target));
   }
 }
@@ -105,6 +109,7 @@ std::shared_ptr<Shape> read_shape(const tinygltf::Primitive& primitive, const Me
   auto shape = std::make_shared<Shape>();
   shape->positions = mesh.positions;
   shape->normals = mesh.normals;
+  shape->tangents = mesh.tangents;
   read_targets(primitive, *shape, reader, label);
   read_influences(primitive, *shape, reader, label);
   return shape;

@@ -49,7 +49,8 @@ struct NextPose {
 };
 
 // By their bits: a zero's sign and what is not a number count as well.
-bool same(const std::vector<Float3>& a, const std::vector<Float3>& b) {
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a.front()) == 0);
 }
 
@@ -67,9 +68,11 @@ void apply(const SceneMotion& motion, NextPose& next, SceneFile& scene, SceneCha
     const SceneMotion::MovedMesh& moved = motion.meshes[i];
     Mesh& mesh = scene.meshes[moved.mesh];
     PosedShape& shape = next.shapes[i];
-    if (!same(mesh.positions, shape.positions) || !same(mesh.normals, shape.normals)) {
+    if (!same(mesh.positions, shape.positions) || !same(mesh.normals, shape.normals) ||
+        !same(mesh.tangents, shape.tangents)) {
       mesh.positions.swap(shape.positions);
       mesh.normals.swap(shape.normals);
+      mesh.tangents.swap(shape.tangents);
       changes.meshes.push_back(moved.mesh);
       changes.instances.insert(changes.instances.end(), moved.instances.begin(), moved.instances.end());
     }

@@ -66,15 +66,24 @@ PosedShape pose_shape(const Shape& shape, const std::vector<double>& morph_weigh
   const glm::dvec3 mirror(mirrored ? -1 : 1, 1, 1);
   out.positions.reserve(shape.positions.size());
   out.normals.reserve(shape.normals.size());
+  out.tangents.reserve(shape.tangents.size());
   for (std::size_t v = 0; v < shape.positions.size(); ++v) {
     const glm::dmat4 m = carried ? blended(shape, v, joints) : glm::dmat4(1);
     glm::dvec3 p = morphed(shape.positions[v], v, shape, &Shape::Target::positions, morph_weights);
     if (carried) p = mirror * glm::dvec3(m * glm::dvec4(p, 1));
     out.positions.push_back(narrow(p));
-    if (shape.normals.empty()) continue;
-    glm::dvec3 n = morphed(shape.normals[v], v, shape, &Shape::Target::normals, morph_weights);
-    if (carried) n = mirror * turned(glm::dmat3(m), n);
-    out.normals.push_back(unit(n));
+    if (!shape.normals.empty()) {
+      glm::dvec3 n = morphed(shape.normals[v], v, shape, &Shape::Target::normals, morph_weights);
+      if (carried) n = mirror * turned(glm::dmat3(m), n);
+      out.normals.push_back(unit(n));
+    }
+    if (!shape.tangents.empty()) {
+      const auto& [x, y, z, handedness] = shape.tangents[v];
+      glm::dvec3 t = morphed({x, y, z}, v, shape, &Shape::Target::tangents, morph_weights);
+      if (carried) t = mirror * (glm::dmat3(m) * t);
+      const Float3 direction = unit(t);
+      out.tangents.push_back({direction[0], direction[1], direction[2], handedness});
+    }
   }
   return out;
 }

@@ -13,9 +13,10 @@ namespace umbrix::io::detail {
 /// joints that carry them. All arrays are as long as `positions`, or empty. Never changes once made.
 struct Shape {
   struct Target {
-    std::vector<Float3> positions, normals;
+    std::vector<Float3> positions, normals, tangents;
   };
   std::vector<Float3> positions, normals;
+  std::vector<Float4> tangents;
   std::vector<Target> targets;
   std::size_t influences = 0;  ///< a vertex; 0: no joint carries it
   std::vector<std::uint16_t> joints;
@@ -26,6 +27,7 @@ struct Shape {
 /// of a triangle is its front is told by the instance's transform, here `to_world`, not by its vertices.
 struct PosedShape {
   std::vector<Float3> positions, normals;
+  std::vector<Float4> tangents;
   Transform to_world = kIdentity;
 };
 

@@ -25,6 +25,8 @@ double clamped_cosine(const Vec3& normal, const Vec3& direction) {
   return std::max(glm::dot(normal, direction), kSmallestCosine);
 }
 
+double strongest(const Rgb& color) { return std::max({color.r, color.g, color.b}); }
+
 double power5(double x) { return x * x * x * x * x; }
 
 /// The material as its lobes need it.
@@ -32,11 +34,18 @@ struct Lobes {
   explicit Lobes(const BsdfParameters& material)
       : diffuse(material.base_color * (1 - material.metallic)),
         f0(glm::mix(material.dielectric_f0, material.base_color, material.metallic)),
+        complement((strongest(material.dielectric_f0) - material.dielectric_f0) * (1 - material.metallic)),
         f90(glm::mix(material.dielectric_f90, 1.0, material.metallic)),
         metallic(material.metallic),
         alpha(std::max(material.roughness * material.roughness, kSmallestAlpha)) {}
 
   Rgb fresnel(double view_half) const { return f0 + (f90 - f0) * power5(1 - view_half); }
+
+  /// What gets below the layer. Of a coloured dielectric its strongest channel counts for all (KHR_materials_specular):
+  /// else the layer's complement would show.
+  Rgb transmitted(double view_half) const {
+    return 1.0 - fresnel(view_half) - complement * (1 - power5(1 - view_half));
+  }
 
   /// Of light that was reflected more than once: 1 for a white metal.
   Rgb repeated_fresnel(double mean_albedo) const {
@@ -55,7 +64,7 @@ struct Lobes {
     return mirrored + spread > 0 ? mirrored / (mirrored + spread) : 1;
   }
 
-  Rgb diffuse, f0;
+  Rgb diffuse, f0, complement;
   double f90, metallic, alpha;
 };
 
@@ -79,12 +88,12 @@ Vec3 local_view(const Frame3& frame, const Vec3& wo) {
 Rgb evaluate_bsdf(const BsdfParameters& material, const Vec3& normal, const Vec3& wo, const Vec3& wi) {
   const Lobes lobes(material);
   const Vec3 half = glm::normalize(wo + wi);
-  const Rgb fresnel = lobes.fresnel(std::clamp(glm::dot(wo, half), 0.0, 1.0));
+  const double view_half = std::clamp(glm::dot(wo, half), 0.0, 1.0);
   const double normal_light = clamped_cosine(normal, wi), normal_view = clamped_cosine(normal, wo);
   const double alpha2 = lobes.alpha * lobes.alpha;
   const double specular = ggx_distribution(std::clamp(glm::dot(normal, half), 0.0, 1.0), alpha2) *
                           smith_visibility(normal_light, normal_view, alpha2);
-  return (1.0 - fresnel) * lobes.diffuse / kPi + fresnel * specular +
+  return lobes.transmitted(view_half) * lobes.diffuse / kPi + lobes.fresnel(view_half) * specular +
          repeated_reflections(lobes, normal_light, normal_view);
 }
 

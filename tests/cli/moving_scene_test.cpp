@@ -73,6 +73,7 @@ TEST_F(MovingScene, AMeshThatMovesIsBuiltAnewAndOneThatStaysIsNot) {
   const std::size_t moved[] = {0, 1, 1, 0, 0};
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_EQ(stats["frames"][i]["moved_instances"], moved[i]) << i;
+    EXPECT_EQ(stats["frames"][i]["tree_built"], moved[i] > 0) << i;
     EXPECT_GE(stats["frames"][i]["seconds"]["build"], 0);
   }
   EXPECT_FALSE(same_picture("a.00.png", "a.12.png"));

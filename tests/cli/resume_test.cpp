@@ -85,9 +85,11 @@ TEST_F(Resume, JobIsTheContentAndWhatChangesPixels) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return job_of("b.exr");
   };
-  EXPECT_EQ(job_with({"-j", "1", "--kernel", "brute", "--build-quality", "fast", "--stats", path("s.json"),
-                      "--checkpoint", "1h", "--exposure", "2", "--half", "--memory-limit", "4G", "--instances", "share",
-                      "--preview", path("p.png")}),
+  EXPECT_EQ(job_with({"-j",           "1",       "--kernel",     "brute",          "--build-quality",
+                      "fast",         "--stats", path("s.json"), "--checkpoint",   "1h",
+                      "--exposure",   "2",       "--half",       "--memory-limit", "4G",
+                      "--instances",  "share",   "--preview",    path("p.png"),    "--log-file",
+                      path("run.log")}),
             job_with({"--half"}))
       << "these change no pixel of an EXR";
   for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{{"--seed", "1"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes what fuzzing starts from, a folder for each target: seeds OUTPUT_FOLDER [SCENE.glb ...]. Of the scenes only
-// the JSON is taken, and the first bytes of the buffer.
+// Writes what fuzzing starts from, a folder for each target: seeds OUTPUT_FOLDER [SCENE ...]. A .gltf is taken as it
+// is; of a .glb only the JSON is, and the first bytes of the buffer.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -184,6 +184,10 @@ void write_scenes(const fs::path& out, const std::vector<std::string>& scene_pat
   external.json["buffers"] = {{{"byteLength", external.bin.size()}, {"uri", "a.bin"}}};
   text.add(external.json.dump(1));
   for (const std::string& path : scene_paths) {
+    if (fs::path(path).extension() == ".gltf") {
+      text.add(read(path));
+      continue;
+    }
     const std::string glb = read(path);
     std::uint32_t length = 0;
     if (glb.size() > 28) glb.copy(reinterpret_cast<char*>(&length), sizeof length, 12);

@@ -10,17 +10,7 @@
 namespace umbrix::io {
 namespace {
 
-using testing::animate_weights;
-using testing::bytes_of;
-using testing::corner;
-using testing::expect_near;
-using testing::Gltf;
-using testing::load;
-using testing::Numbers;
-using testing::pose;
-using testing::TempFolder;
-
-const float kHalf = std::sqrt(0.5f);
+using namespace testing;
 
 /// A triangle with two morph targets; the second one is sparse and moves the third corner only.
 Gltf with_targets() {
@@ -58,8 +48,8 @@ TEST(MorphTargets, WeightsOfTheNodeGoBeforeThoseOfTheMesh) {
   expect_near(corner(scene, 1, 1), {1, 0, 2});
   expect_near(corner(scene, 1, 2), {0, 1, 3});
   const Mesh& half = scene.meshes[scene.instances[0].mesh];
-  EXPECT_NEAR(half.normals[0][0], kHalf, 1e-6);
-  EXPECT_NEAR(half.normals[0][2], kHalf, 1e-6);
+  EXPECT_NEAR(half.normals[0][0], kSqrtHalf, 1e-6);
+  EXPECT_NEAR(half.normals[0][2], kSqrtHalf, 1e-6);
   EXPECT_NE(scene.instances[0].mesh, scene.instances[1].mesh);
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "gltf_text.h"
 
 namespace umbrix::io::testing {
+
+/// Sine and cosine of an eighth of a turn: a quaternion of them turns by a quarter.
+inline const float kSqrtHalf = std::sqrt(0.5f);
 
 using Numbers = std::vector<std::uint32_t>;
 

@@ -10,14 +10,7 @@
 namespace umbrix::io {
 namespace {
 
-using testing::corner;
-using testing::expect_near;
-using testing::Gltf;
-using testing::load;
-using testing::Numbers;
-using testing::pose;
-
-const float kHalf = std::sqrt(0.5f);
+using namespace testing;
 
 TEST(SceneMotion, ASceneWithoutAnimationsStays) {
   SceneFile scene = load(testing::one_triangle());
@@ -67,7 +60,7 @@ TEST(SceneMotion, ParentsCarryTheirChildren) {
   g.json["nodes"].push_back({{"children", {1}}});
   g.json["scenes"][0]["nodes"] = {2};
   g.json["nodes"][0]["scale"] = {2, 2, 2};
-  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, kHalf, kHalf});
+  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, kSqrtHalf, kSqrtHalf});
   SceneFile scene = load(g);
   expect_near(corner(scene, 0, 1), {2, 1, 0});
   pose(scene, 1);
@@ -82,13 +75,13 @@ TEST(SceneMotion, LightsMoveAndTurn) {
   g.root({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});  // node 1
   g.root({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});  // node 2, stays
   g.animate(0, 1, "translation", {0, 2}, {0, 0, 0, 0, 6, 0});
-  g.animate(0, 1, "rotation", {0, 2}, {0, 0, 0, 1, 0, kHalf, 0, kHalf});
+  g.animate(0, 1, "rotation", {0, 2}, {0, 0, 0, 1, 0, kSqrtHalf, 0, kSqrtHalf});
   SceneFile scene = load(g);
   const SceneChanges changes = pose(scene, 1);
   EXPECT_TRUE(changes.lights);
   EXPECT_TRUE(changes.instances.empty());
   expect_near(scene.lights[0].position, {0, 3, 0});
-  expect_near(scene.lights[0].direction, {-kHalf, 0, -kHalf});
+  expect_near(scene.lights[0].direction, {-kSqrtHalf, 0, -kSqrtHalf});
   expect_near(scene.lights[1].position, {0, 0, 0});
   EXPECT_FALSE(pose(scene, 1).lights);
 }

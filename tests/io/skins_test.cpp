@@ -11,17 +11,7 @@
 namespace umbrix::io {
 namespace {
 
-using testing::animate_weights;
-using testing::bytes_of;
-using testing::corner;
-using testing::expect_near;
-using testing::Gltf;
-using testing::load;
-using testing::Numbers;
-using testing::pose;
-using testing::TempFolder;
-
-const float kHalf = std::sqrt(0.5f);
+using namespace testing;
 
 /// A strip of two squares up the y axis, on two joints: nodes 1 at the origin and 2 at (0, 1, 0), its child. The lower
 /// corners follow the first, the upper the second, those between both. Node 0 places it, which must not matter.
@@ -70,7 +60,7 @@ TEST(Skins, AtRestJointsDecideAndTheNodeDoesNot) {
 TEST(Skins, AJointThatTurnsBendsTheMesh) {
   Gltf g = strip();
   // The second joint turns to the left by a quarter.
-  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, kHalf, kHalf});
+  g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, kSqrtHalf, kSqrtHalf});
   SceneFile scene = load(g);
   expect_near(corner(scene, 0, 4), {0, 2, 0});
   const SceneChanges changes = pose(scene, 1);
@@ -89,7 +79,7 @@ TEST(Skins, AJointThatTurnsBendsTheMesh) {
 TEST(Skins, NormalsTurnWithTheJoints) {
   Gltf g = strip();
   // A quarter turn about x, and squeezed along what is z before.
-  g.animate(0, 1, "rotation", {0}, {kHalf, 0, 0, kHalf});
+  g.animate(0, 1, "rotation", {0}, {kSqrtHalf, 0, 0, kSqrtHalf});
   g.animate(0, 1, "scale", {0}, {1, 1, 0.25f});
   SceneFile scene = load(g);
   pose(scene, 0);
@@ -163,7 +153,7 @@ TEST(Skins, MorphTargetsComeFirst) {
   for (std::size_t v = 0; v < 6; ++v) right[3 * v] = 1;
   g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", g.floats3(right)}}};
   g.json["nodes"][0]["weights"] = {2};
-  g.json["nodes"][1]["rotation"] = {0, 0, kHalf, kHalf};
+  g.json["nodes"][1]["rotation"] = {0, 0, kSqrtHalf, kSqrtHalf};
   expect_near(corner(load(g), 0, 1), {0, 3, 0});
 }
 

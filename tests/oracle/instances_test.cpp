@@ -32,6 +32,23 @@ void ask(const Scene& scene, const std::vector<Ray>& rays, const QueryOptions& o
   scene.closest({rays.data(), rays.size()}, hits.data(), options);
 }
 
+/// A scene with instances, and what it answers to rays.
+struct Answered {
+  Answered(Placing placing, std::size_t count, std::uint64_t seed = kSeed)
+      : meshes(placing, seed), rays(meshes.rays(test_rays(count), kSeed)) {
+    EXPECT_TRUE(meshes.build_instanced(scene).ok());
+    ask(scene, rays, {}, occluded, hits);
+    blocked = static_cast<std::uint64_t>(std::count(occluded.begin(), occluded.end(), std::uint8_t{1}));
+  }
+
+  InstancedMeshes meshes;
+  std::vector<Ray> rays;
+  Scene scene;
+  std::vector<std::uint8_t> occluded;
+  std::vector<Hit> hits;
+  std::uint64_t blocked = 0;
+};
+
 /// All kernels and instruction sets against the flat scene, answered by `brute`.
 void expect_same(const InstancedMeshes& meshes, const std::vector<Ray>& rays, QueryOptions options) {
   Scene flat, instanced;
@@ -93,22 +110,18 @@ TEST_P(Instances, HaveMasksOpacityAndSkippedTrianglesOfTheirOwn) {
 }
 
 TEST_P(Instances, AgreeWithTheOracle) {
-  const InstancedMeshes meshes(GetParam(), kSeed + 100);
-  const std::vector<Ray> rays = meshes.rays(test_rays(1500), kSeed);
-  const oracle::BruteForce oracle(meshes.triangles());
-  Scene scene;
-  ASSERT_TRUE(meshes.build_instanced(scene).ok());
-  std::vector<std::uint8_t> occluded;
-  std::vector<Hit> hits;
-  ask(scene, rays, {}, occluded, hits);
+  const Answered answered(GetParam(), 1500, kSeed + 100);
+  const std::vector<Ray>& rays = answered.rays;
+  const std::vector<Hit>& hits = answered.hits;
+  const oracle::BruteForce oracle(answered.meshes.triangles());
   std::size_t hit_count = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::optional<oracle::Closest> truth = oracle.closest(rays[i]);
     hit_count += truth ? 1 : 0;
-    ASSERT_EQ(occluded[i] != 0, truth.has_value()) << "ray " << i;
+    ASSERT_EQ(answered.occluded[i] != 0, truth.has_value()) << "ray " << i;
     ASSERT_EQ(hits[i].valid(), truth.has_value()) << "ray " << i;
     if (!truth) continue;
-    const Primitive expected = meshes.primitive(truth->triangle);
+    const Primitive expected = answered.meshes.primitive(truth->triangle);
     ASSERT_EQ(hits[i].primitive.mesh, expected.mesh) << "ray " << i;
     ASSERT_EQ(hits[i].primitive.triangle, expected.triangle) << "ray " << i;
   }
@@ -117,53 +130,43 @@ TEST_P(Instances, AgreeWithTheOracle) {
 }
 
 TEST_P(Instances, CountRaysByTheTrueAnswer) {
-  const InstancedMeshes meshes(GetParam(), kSeed);
-  const std::vector<Ray> rays = meshes.rays(test_rays(600), kSeed);
-  Scene scene;
-  ASSERT_TRUE(meshes.build_instanced(scene).ok());
-  std::vector<std::uint8_t> expected, occluded(rays.size());
-  std::vector<Hit> hits;
-  ask(scene, rays, {}, expected, hits);
+  const Answered answered(GetParam(), 600);
+  const std::vector<Ray>& rays = answered.rays;
+  std::vector<std::uint8_t> occluded(rays.size());
   OcclusionCounts counts;
-  scene.occluded({rays.data(), rays.size()}, occluded.data(), counts);
-  EXPECT_EQ(occluded, expected);
-  const auto blocked = static_cast<std::uint64_t>(std::count(expected.begin(), expected.end(), std::uint8_t{1}));
-  EXPECT_EQ(counts.occluded.rays, blocked);
-  EXPECT_EQ(counts.unoccluded.rays, rays.size() - blocked);
+  answered.scene.occluded({rays.data(), rays.size()}, occluded.data(), counts);
+  EXPECT_EQ(occluded, answered.occluded);
+  EXPECT_EQ(counts.occluded.rays, answered.blocked);
+  EXPECT_EQ(counts.unoccluded.rays, rays.size() - answered.blocked);
   std::vector<Hit> counted(rays.size());
   RayCounts work;
-  scene.closest({rays.data(), rays.size()}, counted.data(), work);
+  answered.scene.closest({rays.data(), rays.size()}, counted.data(), work);
   EXPECT_EQ(work.rays, rays.size());
-  EXPECT_TRUE(std::equal(hits.begin(), hits.end(), counted.begin(), same_bits));
+  EXPECT_TRUE(std::equal(answered.hits.begin(), answered.hits.end(), counted.begin(), same_bits));
 }
 
 TEST_P(Instances, AnswerFramesAsWell) {
-  const InstancedMeshes meshes(GetParam(), kSeed);
-  const std::vector<Ray> rays = meshes.rays(test_rays(600), kSeed);
-  Scene scene;
-  ASSERT_TRUE(meshes.build_instanced(scene).ok());
-  std::vector<std::uint8_t> expected, occluded(rays.size());
-  std::vector<Hit> hits;
-  ask(scene, rays, {}, expected, hits);
-  const auto blocked = static_cast<std::uint64_t>(std::count(expected.begin(), expected.end(), std::uint8_t{1}));
+  const Answered answered(GetParam(), 600);
+  const std::vector<Ray>& rays = answered.rays;
+  std::vector<std::uint8_t> occluded(rays.size());
   for (const FrameMethod method : {FrameMethod::best, FrameMethod::cached, FrameMethod::linked}) {
     for (const bool counted : {false, true}) {
       FrameOptions options;
       options.method = method;
       options.count_work = counted;
       FrameTracer tracer;
-      ASSERT_TRUE(tracer.start(scene, options).ok());
+      ASSERT_TRUE(tracer.start(answered.scene, options).ok());
       for (int frame = 0; frame < 2; ++frame) {
         ASSERT_TRUE(tracer.begin_frame().ok());
         ShadowTile tile;
         tile.rays = {rays.data(), rays.size()};
         tracer.occluded(tile, occluded.data());
-        EXPECT_EQ(occluded, expected);
+        EXPECT_EQ(occluded, answered.occluded);
         const FrameStats stats = tracer.end_frame();
-        EXPECT_EQ(stats.occluded, blocked);
+        EXPECT_EQ(stats.occluded, answered.blocked);
         if (!counted) continue;
-        EXPECT_EQ(stats.counts.occluded.rays, blocked);
-        EXPECT_EQ(stats.counts.unoccluded.rays, rays.size() - blocked);
+        EXPECT_EQ(stats.counts.occluded.rays, answered.blocked);
+        EXPECT_EQ(stats.counts.unoccluded.rays, rays.size() - answered.blocked);
       }
     }
   }
