@@ -79,12 +79,28 @@ std::uint64_t Links::bytes() const noexcept {
   return leaf_count() * sizeof(LinkedLeaf) + records_.size() * sizeof(records_[0]);
 }
 
+std::uint32_t Links::take_record() const noexcept {
+  for (std::atomic<std::uint32_t>& slot : given_back_) {
+    if (slot.load(std::memory_order_relaxed) == 0) continue;
+    if (const std::uint32_t record = slot.exchange(0, std::memory_order_acquire)) return record;
+  }
+  if (next_record_.load(std::memory_order_relaxed) >= leaves_.size()) return 0;
+  const std::uint32_t record = next_record_.fetch_add(1, std::memory_order_relaxed);
+  return record < leaves_.size() ? record : 0;
+}
+
+void Links::give_back(std::uint32_t record) const noexcept {
+  for (std::atomic<std::uint32_t>& slot : given_back_) {
+    std::uint32_t none = 0;
+    if (slot.compare_exchange_strong(none, record, std::memory_order_release)) return;
+  }
+}
+
 std::uint32_t Links::add(std::uint32_t node) const noexcept { return add(node, cell_of(tree_, node, everywhere())); }
 
 std::uint32_t Links::add(std::uint32_t node, const Box& cell) const noexcept {
-  if (next_record_.load(std::memory_order_relaxed) >= leaves_.size()) return 0;
-  const std::uint32_t record = next_record_.fetch_add(1, std::memory_order_relaxed);
-  if (record >= leaves_.size()) return 0;
+  const std::uint32_t record = take_record();
+  if (record == 0) return 0;
   LinkedLeaf& leaf = leaves_[record];
   for (int axis = 0; axis < 3; ++axis) {
     leaf.faces[axis] = cell.lower[axis];
@@ -92,10 +108,13 @@ std::uint32_t Links::add(std::uint32_t node, const Box& cell) const noexcept {
   }
   leaf.blocks = tree_.nodes[node].blocks();
   leaf.node = node;
-  // If another thread was first, its record counts and this one stays unused.
+  // If another thread was first, its record counts, and the next leaf gets this one.
   std::uint32_t first = 0;
   const bool added = records_[node].compare_exchange_strong(first, record, std::memory_order_acq_rel);
-  if (!added) return first;
+  if (!added) {
+    give_back(record);
+    return first;
+  }
   leaf_count_.fetch_add(1, std::memory_order_relaxed);
   return record;
 }

@@ -80,6 +80,8 @@ class Links : public SideTable {
   void build_reached(const std::vector<Vec3>& lights, const std::vector<bool>& touched);
 
  private:
+  std::uint32_t take_record() const noexcept;
+  void give_back(std::uint32_t record) const noexcept;
   std::uint32_t add(std::uint32_t node) const noexcept;
   std::uint32_t add(std::uint32_t node, const Box& cell) const noexcept;
   void add_below(std::uint32_t node, const Box& cell);
@@ -92,7 +94,8 @@ class Links : public SideTable {
   LazyArray<LinkedLeaf> leaves_;                   ///< by record
   LazyArray<std::atomic<std::uint32_t>> records_;  ///< by node
   mutable std::atomic<std::uint32_t> next_record_{1};
-  mutable std::atomic<std::uint32_t> leaf_count_{0};  ///< without records that two threads made of one leaf
+  mutable std::atomic<std::uint32_t> given_back_[16] = {};  ///< of several threads that want a leaf at once
+  mutable std::atomic<std::uint32_t> leaf_count_{0};        ///< without records that two threads made of one leaf
 };
 
 }  // namespace umbrix::detail

@@ -112,7 +112,7 @@ TEST(Threads, BuildTheTreeWhenItIsNeeded) {
     on_threads([&] {
       std::uint8_t out[kBatch];
       Hit hits[kBatch];
-      for (int repeat = 0; repeat < 4; ++repeat) {
+      for (int repeat = 0; repeat < 10; ++repeat) {
         for (std::size_t begin = 0; begin < rays.size(); begin += kBatch) {
           const RaySpan batch = {rays.data() + begin, kBatch};
           scene.occluded(batch, out, options);
