@@ -69,7 +69,9 @@ Status print_pictures(const World& world, const View& view) {
   options.width = 192;
   options.height = 108;
   options.samples = 4;
-  options.aovs = {"normal", "depth", "albedo", "shadow"};
+  options.bounces = 1;
+  options.filter = PixelFilter::gaussian;
+  options.aovs = {"normal", "depth", "albedo", "shadow", "indirect"};
   for (std::size_t target = 0; target < simd_target_count(); ++target) {
     const char* const simd = simd_target_name(target);
     if (Status status = use_simd_target(simd); !status) return status;
