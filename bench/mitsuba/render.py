@@ -2,11 +2,12 @@
 """Renders a .glb as `umbrix render` does, with Mitsuba 3: same triangles, camera, point lights and factors of materials.
 
 Usage: render.py SCENE.glb SETUP.json VARIANT WIDTH HEIGHT SPP BOUNCES THREADS OUT.exr
-Prints one line of JSON: the seconds that loading, the first and a second render took (the first may compile code), by
+Prints one line of JSON: the seconds that starting (if STARTED is when that was, in the environment), loading, the first and a second render took (the first may compile code), by
 the clock and, as NAME_cpu, over all threads.
 SETUP.json is one object with a camera (eye, target, up, fov_y_degrees) and point lights with an intensity.
 """
 import json
+import os
 import struct
 import sys
 import time
@@ -120,7 +121,7 @@ def main():
     mi.set_log_level(mi.LogLevel.Error)
     import drjit as dr
     dr.set_thread_count(int(threads))
-    times = {}
+    times = {"start": time.time() - float(os.environ.get("STARTED", "nan"))}
 
     def timed(name, work):
         start, cpu = time.perf_counter(), time.process_time()
