@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 #include <string>
 
 #include "io/load_error.h"
@@ -98,9 +99,10 @@ void read_attribute(const std::string& name, std::uint64_t size, const Reader& v
 
 // False at the empty header that ends those of several parts.
 bool read_header(Reader& reader, Header& header) {
-  bool empty = true;
+  std::set<std::string> names;
   for (std::string name = reader.text(); !name.empty(); name = reader.text()) {
-    empty = false;
+    // Which of two OpenEXR goes by, no one says.
+    if (!names.insert(name).second) bad_input("the OpenEXR header has an attribute twice: '{}'", name);
     reader.text();  // the type
     const auto size = reader.number<std::int32_t>();
     if (size < 0) bad_input("the OpenEXR header has an attribute of {} bytes", size);
@@ -109,7 +111,7 @@ bool read_header(Reader& reader, Header& header) {
     reader.skip(static_cast<std::uint64_t>(size));
     read_attribute(name, static_cast<std::uint64_t>(size), value, header);
   }
-  return !empty;
+  return !names.empty();
 }
 
 std::uint64_t parts(std::uint64_t whole, std::uint64_t part) { return (whole + part - 1) / part; }

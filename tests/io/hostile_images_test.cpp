@@ -79,6 +79,9 @@ TEST(HostileImages, OpenExrHeadersThatLie) {
       {"text_of_2_gigabytes", [&](auto& exr) { patch(exr, text, 0, raw(kMost)); }, StatusCode::bad_input, "cut off"},
       {"text_of_less_than_nothing", [&](auto& exr) { patch(exr, text, 0, raw(-1)); }, StatusCode::bad_input,
        "-1 bytes"},
+      {"two_windows",
+       [&](auto& exr) { exr.insert(exr.find(window), exr.substr(exr.find(window), window.size() + 4 + 16)); },
+       StatusCode::bad_input, "twice: 'dataWindow'"},
   };
   for (const Lie& lie : lies) {
     SCOPED_TRACE(lie.name);
