@@ -81,8 +81,10 @@ class LightRays {
       const RayTag f;
       const RayBitsTag n;
       const auto place = [&](RayVec x, float low, float scale, std::int32_t count) {
-        const auto part = hn::ConvertTo(n, hn::Mul(hn::Sub(x, hn::Set(f, low)), hn::Set(f, scale)));
-        return hn::Min(part, hn::Set(n, count - 1));
+        const auto part = hn::Mul(hn::Sub(x, hn::Set(f, low)), hn::Set(f, scale));
+        // Rays of no face may have a NaN, which is no integer.
+        const auto whole = hn::ConvertTo(n, hn::IfThenElseZero(hn::Ge(part, hn::Zero(f)), part));
+        return hn::Min(whole, hn::Set(n, count - 1));
       };
       return hn::Add(hn::Mul(place(v, r_.low_v, by_v_, rows_), hn::Set(n, columns_)),
                      place(u, r_.low_u, by_u_, columns_));
