@@ -85,7 +85,7 @@ Gltf with_motion() {
   for (std::size_t i = 0; i < 32; i += i % 16 == 15 ? 1 : 5) matrices[i] = 1;
   const int skinned = g.mesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
                               {"targets", {{{"POSITION", positions}}}}});
-  g.json["meshes"][0]["weights"] = {0.5};
+  g.json["meshes"][0]["weights"] = nlohmann::json::array({0.5});
   g.json["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", g.accessor(bytes_of(matrices), 5126, 2, "MAT4")}}};
   g.root({{"mesh", skinned}, {"skin", 0}});
   g.root({{"children", {2}}});

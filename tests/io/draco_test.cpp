@@ -83,7 +83,7 @@ nlohmann::json& extension(Gltf& g) { return primitive(g)["extensions"][kExtensio
 /// A file as exporters write it: accessors without views, for what is in the Draco data.
 Gltf compressed(const Corners& triangles, const Encoding& encoding = {}, std::size_t vertices = 0) {
   Gltf g;
-  g.json["extensionsUsed"] = g.json["extensionsRequired"] = {kExtension};
+  g.json["extensionsUsed"] = g.json["extensionsRequired"] = nlohmann::json::array({kExtension});
   const auto accessor = [&](int component_type, std::size_t count, const char* type) {
     g.json["accessors"].push_back({{"componentType", component_type}, {"count", count}, {"type", type}});
     return g.json["accessors"].size() - 1;

@@ -70,7 +70,7 @@ const Fault kFaults[] = {
      "NORMAL"},
     {"mode_unknown", [](Gltf& g) { primitive(g)["mode"] = 7; }, "mode 7"},
     {"primitives_not_array", [](Gltf& g) { g.json["meshes"][0]["primitives"] = 3; }, "meshes[0].primitives"},
-    {"node_own_child", [](Gltf& g) { node(g)["children"] = {0}; }, "nodes[0]"},
+    {"node_own_child", [](Gltf& g) { node(g)["children"] = nlohmann::json::array({0}); }, "nodes[0]"},
     {"node_cycle",
      [](Gltf& g) {
        g.json["nodes"].push_back({{"children", {2}}});
@@ -82,7 +82,7 @@ const Fault kFaults[] = {
        g.json["nodes"].push_back({{"children", {2}}});
        g.json["nodes"].push_back({});
        g.json["nodes"][2] = json::object();
-       node(g)["children"] = {2};
+       node(g)["children"] = nlohmann::json::array({2});
      },
      "nodes[2]"},
     {"root_twice",
@@ -106,7 +106,7 @@ const Fault kFaults[] = {
     {"transform_overflow",
      [](Gltf& g) {
        node(g)["scale"] = {1e308, 1, 1};
-       node(g)["children"] = {1};
+       node(g)["children"] = nlohmann::json::array({1});
        g.json["nodes"].push_back({{"scale", {1e308, 1, 1}}});
      },
      "nodes[1]"},

@@ -95,7 +95,7 @@ int Gltf::root(const nlohmann::json& node) {
 
 nlohmann::json Gltf::with_buffers(const nlohmann::json& first) const {
   nlohmann::json out = json;
-  out["buffers"] = {first};
+  out["buffers"] = nlohmann::json::array({first});
   if (placeholder_bytes > 0) {
     out["buffers"].push_back(
         {{"byteLength", placeholder_bytes}, {"extensions", {{"EXT_meshopt_compression", {{"fallback", true}}}}}});

@@ -138,7 +138,7 @@ const Fault kFaults[] = {
     {"translation_beyond_doubles_in_a_child",
      [](Gltf& g) {
        node(g)["translation"] = {1.7e308, 0, 0};
-       node(g)["children"] = {1};
+       node(g)["children"] = nlohmann::json::array({1});
        g.json["nodes"].push_back({{"translation", {1.7e308, 0, 0}}});
      },
      "nodes[1]"},
@@ -210,9 +210,9 @@ const Fault kFaults[] = {
 
     // Scenes.
     {"scene_negative", [](Gltf& g) { g.json["scene"] = -1; }, "scene"},
-    {"scene_of_no_node", [](Gltf& g) { g.json["scenes"][0]["nodes"] = {5}; }, "scenes[0].nodes"},
+    {"scene_of_no_node", [](Gltf& g) { g.json["scenes"][0]["nodes"] = nlohmann::json::array({5}); }, "scenes[0].nodes"},
     {"scenes_not_array", [](Gltf& g) { g.json["scenes"] = 1; }, "scenes"},
-    {"child_of_no_node", [](Gltf& g) { node(g)["children"] = {7}; }, "nodes[0].children"},
+    {"child_of_no_node", [](Gltf& g) { node(g)["children"] = nlohmann::json::array({7}); }, "nodes[0].children"},
     {"mode_negative", [](Gltf& g) { primitive(g)["mode"] = -1; }, "mode"},
 };
 
@@ -307,7 +307,7 @@ TEST(HostileValues, ChainsAndCrowdsAreLimited) {
   Gltf chain = testing::one_triangle();
   for (int i = 1; i < 20000; ++i) {
     chain.json["nodes"].push_back(json::object());
-    chain.json["nodes"][static_cast<std::size_t>(i) - 1]["children"] = {i};
+    chain.json["nodes"][static_cast<std::size_t>(i) - 1]["children"] = nlohmann::json::array({i});
   }
   expect_refused(folder.write("chain.gltf", chain.text()), StatusCode::resource_limit, "nested deeper than 256");
 

@@ -68,7 +68,7 @@ std::string taken(const Gltf& g, std::size_t view) {
 Gltf compressed(const Gltf& plain, bool triangles = true) {
   Gltf g = plain;
   g.bin.clear();
-  g.json["extensionsUsed"] = g.json["extensionsRequired"] = {kExtension};
+  g.json["extensionsUsed"] = g.json["extensionsRequired"] = nlohmann::json::array({kExtension});
   std::size_t fallback_bytes = 0;
   for (std::size_t a = 0; a < g.json["accessors"].size(); ++a) {
     const nlohmann::json& accessor = g.json["accessors"][a];

@@ -78,7 +78,7 @@ TEST(MorphTargets, OnlyUsedVerticesAreMorphed) {
   const int mesh = g.mesh({{"attributes", {{"POSITION", positions}}},
                            {"indices", g.indices({1, 2, 3})},
                            {"targets", {{{"POSITION", up}}}}});
-  g.json["meshes"][0]["weights"] = {1};
+  g.json["meshes"][0]["weights"] = nlohmann::json::array({1});
   g.root({{"mesh", mesh}});
   const SceneFile scene = load(g);
   EXPECT_EQ(scene.meshes[0].positions, (std::vector<Float3>{{0, 0, 1}, {1, 0, 2}, {0, 1, 3}}));

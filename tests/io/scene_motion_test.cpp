@@ -58,7 +58,7 @@ TEST(SceneMotion, ParentsCarryTheirChildren) {
   Gltf g = testing::one_triangle();
   g.json["nodes"].push_back({{"children", {0}}, {"translation", {0, 1, 0}}});
   g.json["nodes"].push_back({{"children", {1}}});
-  g.json["scenes"][0]["nodes"] = {2};
+  g.json["scenes"][0]["nodes"] = nlohmann::json::array({2});
   g.json["nodes"][0]["scale"] = {2, 2, 2};
   g.animate(0, 2, "rotation", {0, 1}, {0, 0, 0, 1, 0, 0, kSqrtHalf, kSqrtHalf});
   SceneFile scene = load(g);

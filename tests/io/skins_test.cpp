@@ -140,7 +140,7 @@ TEST(Skins, TwoNodesBendOneMeshEachItsWay) {
 
 TEST(Skins, JointsNeedNotBeInTheScene) {
   Gltf g = strip();
-  g.json["scenes"][0]["nodes"] = {0};
+  g.json["scenes"][0]["nodes"] = nlohmann::json::array({0});
   g.animate(0, 1, "translation", {0, 1}, {0, 0, 0, 0, 0, 3});
   SceneFile scene = load(g);
   pose(scene, 1);
@@ -152,7 +152,7 @@ TEST(Skins, MorphTargetsComeFirst) {
   std::vector<float> right(18, 0);
   for (std::size_t v = 0; v < 6; ++v) right[3 * v] = 1;
   g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", g.floats3(right)}}};
-  g.json["nodes"][0]["weights"] = {2};
+  g.json["nodes"][0]["weights"] = nlohmann::json::array({2});
   g.json["nodes"][1]["rotation"] = {0, 0, kSqrtHalf, kSqrtHalf};
   expect_near(corner(load(g), 0, 1), {0, 3, 0});
 }
@@ -196,7 +196,7 @@ const Fault kFaults[] = {
      "skins[0].joints[1]"},
     {"no_joints", [](Gltf& g) { g.json["skins"][0]["joints"] = nlohmann::json::array(); }, "has no joints"},
     {"skin_unknown", [](Gltf& g) { g.json["nodes"][0]["skin"] = 4; }, "nodes[0].skin"},
-    {"too_few_joints", [](Gltf& g) { g.json["skins"][0]["joints"] = {1}; }, "asks for joint 1"},
+    {"too_few_joints", [](Gltf& g) { g.json["skins"][0]["joints"] = nlohmann::json::array({1}); }, "asks for joint 1"},
     {"joints_floats", [](Gltf& g) { accessor_of(g, "JOINTS_0")["componentType"] = 5126; }, "componentType 5126"},
     {"joints_too_few", [](Gltf& g) { accessor_of(g, "JOINTS_0")["count"] = 5; }, "JOINTS_0 has 5"},
     {"weights_too_few", [](Gltf& g) { accessor_of(g, "WEIGHTS_0")["count"] = 5; }, "WEIGHTS_0 has 5"},
@@ -211,9 +211,12 @@ const Fault kFaults[] = {
     {"matrices_too_few", [](Gltf& g) { matrices_are(g, 1, 1); }, "1 inverse bind matrices for 2 joints"},
     {"matrices_cut_off", [](Gltf& g) { matrices(g)["count"] = 2000; }, "lie beyond"},
     {"matrices_vectors", [](Gltf& g) { matrices(g)["type"] = "VEC4"; }, "MAT4"},
-    {"joint_is_its_own_ancestor", [](Gltf& g) { g.json["nodes"][2]["children"] = {1}; }, "its own ancestor"},
-    {"weights_of_nothing", [](Gltf& g) { g.json["nodes"][0]["weights"] = {1}; }, "1 morph weights"},
-    {"mesh_weights_of_nothing", [](Gltf& g) { g.json["meshes"][0]["weights"] = {1}; }, "has 0 targets"},
+    {"joint_is_its_own_ancestor", [](Gltf& g) { g.json["nodes"][2]["children"] = nlohmann::json::array({1}); },
+     "its own ancestor"},
+    {"weights_of_nothing", [](Gltf& g) { g.json["nodes"][0]["weights"] = nlohmann::json::array({1}); },
+     "1 morph weights"},
+    {"mesh_weights_of_nothing", [](Gltf& g) { g.json["meshes"][0]["weights"] = nlohmann::json::array({1}); },
+     "has 0 targets"},
     {"weights_no_numbers", [](Gltf& g) { g.json["nodes"][0]["weights"] = {"1"}; }, "nodes[0].weights"},
     {"target_too_short",
      [](Gltf& g) {

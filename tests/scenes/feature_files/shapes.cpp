@@ -116,7 +116,7 @@ Stage tangents() {
   json morphed = s.square(material, attributes);
   morphed["targets"] = json::array({{{"TANGENT", deltas(s, -1, 1, 0)}}});
   s.place(morphed, 1);
-  s.json["meshes"].back()["weights"] = {1};
+  s.json["meshes"].back()["weights"] = nlohmann::json::array({1});
   s.slanted_light();
   return s;
 }
