@@ -94,59 +94,24 @@ void add_lights(std::vector<Case>& table) {
   }
 }
 
-void add_one_light(std::vector<Case>& table) {
-  struct Light {
+/// Rays to one point, or from such, that lies somewhere special.
+void add_of_points(std::vector<Case>& table, const std::string& name, const char* summary, const char* point,
+                   CaseData (*make)(OneLight, std::uint64_t, std::size_t)) {
+  struct Place {
     const char* name;
     OneLight kind;
-    const char* summary;
+    const char* where;
   };
-  const Light lights[] = {{"one_light", OneLight::anywhere, "all rays to one light, past what it sees at its edge"},
-                          {"one_light_in_plane", OneLight::in_plane, "the same, the light in planes of triangles"},
-                          {"one_light_at_vertex", OneLight::at_vertex, "the same, the light at a vertex"},
-                          {"one_light_near", OneLight::near_triangle, "the same, the light next to a triangle"},
-                          {"one_light_far", OneLight::far_off, "the same, the light 10 to 10000 sizes away"}};
-  for (const Light& light : lights) {
-    Case c = plain(24, light.name, 1e6, nullptr, light.summary);
-    c.make = [kind = light.kind](std::uint64_t seed, std::size_t rays) { return to_one_light(kind, seed, rays); };
-    c.rays_per_scene = 4'000;
-    table.push_back(std::move(c));
-  }
-}
-
-void add_points(std::vector<Case>& table) {
-  struct Points {
-    const char* name;
-    OneLight kind;
-    const char* summary;
-  };
-  const Points points[] = {
-      {"bundles", OneLight::anywhere, "rays in bundles from points, past what these see at its edge"},
-      {"bundles_in_plane", OneLight::in_plane, "the same, the points in planes of triangles"},
-      {"bundles_at_vertex", OneLight::at_vertex, "the same, the points at and next to vertices"},
-      {"bundles_near", OneLight::near_triangle, "the same, the points next to triangles"},
-      {"bundles_far", OneLight::far_off, "the same, the points 10 to 10000 sizes away"}};
-  for (const Points& p : points) {
-    Case c = plain(24, p.name, 1e6, nullptr, p.summary);
-    c.make = [kind = p.kind](std::uint64_t seed, std::size_t rays) { return from_points(kind, seed, rays); };
-    c.rays_per_scene = 4'000;
-    table.push_back(std::move(c));
-  }
-}
-
-void add_eyes(std::vector<Case>& table) {
-  struct Eye {
-    const char* name;
-    OneLight kind;
-    const char* summary;
-  };
-  const Eye eyes[] = {{"camera", OneLight::anywhere, "rays from a point in blocks that go nearly one way"},
-                      {"camera_in_plane", OneLight::in_plane, "the same, the point in planes of triangles"},
-                      {"camera_at_vertex", OneLight::at_vertex, "the same, the point at a vertex"},
-                      {"camera_near", OneLight::near_triangle, "the same, the point next to a triangle"},
-                      {"camera_far", OneLight::far_off, "the same, the point 10 to 10000 sizes away"}};
-  for (const Eye& eye : eyes) {
-    Case c = plain(24, eye.name, 1e6, nullptr, eye.summary);
-    c.make = [kind = eye.kind](std::uint64_t seed, std::size_t rays) { return from_eyes(kind, seed, rays); };
+  const Place places[] = {{"", OneLight::anywhere, ""},
+                          {"_in_plane", OneLight::in_plane, "in planes of triangles"},
+                          {"_at_vertex", OneLight::at_vertex, "at a vertex"},
+                          {"_near", OneLight::near_triangle, "next to a triangle"},
+                          {"_far", OneLight::far_off, "10 to 10000 sizes away"}};
+  for (const Place& place : places) {
+    Case c = plain(24, "", 1e6, nullptr, summary);
+    c.name = name + place.name;
+    if (place.kind != OneLight::anywhere) c.summary = std::string("the same, the ") + point + " " + place.where;
+    c.make = [make, kind = place.kind](std::uint64_t seed, std::size_t rays) { return make(kind, seed, rays); };
     c.rays_per_scene = 4'000;
     table.push_back(std::move(c));
   }
@@ -266,9 +231,10 @@ std::vector<Case> all_cases(double size) {
   add(plain(23, "flat_scene", 1e6, flat_scene, "all triangles in one plane across an axis"));
   add(plain(23, "tilted_flat_scene", 1e6, tilted_flat_scene, "all triangles in one tilted plane"));
   add_lights(table);
-  add_one_light(table);
-  add_points(table);
-  add_eyes(table);
+  add_of_points(table, "one_light", "all rays to one light, past what it sees at its edge", "light", to_one_light);
+  add_of_points(table, "bundles", "rays in bundles from points, past what these see at its edge", "points",
+                from_points);
+  add_of_points(table, "camera", "rays from a point in blocks that go nearly one way", "point", from_eyes);
   add(plain(24, "far_origins", 1e6, far_origins, "from 10 to 1e12 extents outside"));
   add(plain(25, "no_distance", 1e5, no_distance, "the light at the point itself or one unit in the last place off"));
   add(plain(25, "interval_ends", 1e6, interval_ends, "tmin or tmax within 2 units in the last place of a hit"));

@@ -55,7 +55,7 @@ void fold(const TriangleBvh& bvh, std::uint32_t index, std::vector<Descendant>& 
 
 }  // namespace
 
-FoldedBvh::FoldedBvh(const TriangleBvh& bvh) {
+FoldedBvh::FoldedBvh(const TriangleBvh& bvh) : bvh_(&bvh) {
   if (bvh.empty()) return;
   std::vector<std::uint32_t> of_bvh = {0};  // by folded node
   std::vector<Descendant> children;

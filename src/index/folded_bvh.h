@@ -17,8 +17,10 @@ struct alignas(64) FoldedNode {
 /// largest children are taken apart first (Wald, Benthin & Boulos 2008, "Getting rid of packets").
 class FoldedBvh {
  public:
+  static constexpr std::uint32_t kWidth = kRowLanes;
+
   FoldedBvh() = default;
-  /// Throws std::bad_alloc.
+  /// `bvh` must outlive it, where it is. Throws std::bad_alloc.
   explicit FoldedBvh(const TriangleBvh& bvh);
 
   std::uint64_t bytes() const noexcept { return nodes_.size() * sizeof(FoldedNode); }
@@ -26,8 +28,10 @@ class FoldedBvh {
   /// Node 0 is the root; there is none if there are no triangles.
   bool empty() const noexcept { return nodes_.empty(); }
   const FoldedNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
+  const TriangleRows& rows(std::uint32_t index) const noexcept { return bvh_->rows(index); }
 
  private:
+  const TriangleBvh* bvh_ = nullptr;
   std::vector<FoldedNode> nodes_;
 };
 

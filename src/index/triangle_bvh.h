@@ -44,6 +44,8 @@ inline constexpr std::uint32_t kMaxBvhDepth = 64;
 /// twice costs more than boxes that overlap; and for all rays as long as there is no tree, since it is soon built.
 class TriangleBvh {
  public:
+  static constexpr std::uint32_t kWidth = kBvhWidth;
+
   TriangleBvh() = default;
   /// Over the triangles named by `kept`, times 2^exponent, with boxes grown by `eps`, or if that
   /// is 0 exact ones. Throws std::bad_alloc, or what

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A walk of the hierarchy of boxes, four at a time, near ones first, for whatever can tell which boxes it crosses and
+// A walk of a hierarchy of boxes, plain or folded, near ones first, for whatever can tell which boxes it crosses and
 // when. A box is grown by eps, which covers the rounding of its planes' times as it does for cells (walk-inl.h): a hit
 // lies within the float interval of every box above its triangle.
 
@@ -29,14 +29,14 @@ struct CrossedBoxes {
 
 /// Visits the rows that may be met: rows(triangles, t0) returns true to stop. What starts beyond `limit` is left out;
 /// it is read anew for each. times.cross(node, out) tells which of a node's boxes are crossed.
-template <class Times, class Rows, class Counts>
-HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, const Times& times, const typename Times::Time& limit, Rows&& rows,
+template <class Hierarchy, class Times, class Rows, class Counts>
+HWY_INLINE bool bvh_walk(const Hierarchy& bvh, const Times& times, const typename Times::Time& limit, Rows&& rows,
                          Counts& counts) {
   struct Pending {
     std::uint32_t child;
     typename Times::Time t0;
   };
-  Pending stack[(kBvhWidth - 1) * kMaxBvhDepth + 1];
+  Pending stack[(Hierarchy::kWidth - 1) * kMaxBvhDepth + 1];
   std::uint32_t pending = 0;
   Pending here{0, times.start()};
   for (;;) {
@@ -45,8 +45,8 @@ HWY_INLINE bool bvh_walk(const TriangleBvh& bvh, const Times& times, const typen
       counts.leaf();
       if (rows(bvh.rows(here.child & ~BvhNode::kLeaf), here.t0)) return true;
     } else {
-      const BvhNode& node = bvh.node(here.child);
-      CrossedBoxes<typename Times::Time, kBvhWidth> crossed;
+      const auto& node = bvh.node(here.child);
+      CrossedBoxes<typename Times::Time, Hierarchy::kWidth> crossed;
       times.cross(node, crossed);
       // Onto the stack, the nearest last.
       const std::uint32_t base = pending;

@@ -35,19 +35,14 @@ class FarRay {
     t1_ = ray.tmax * time_scale;
   }
 
-  /// Offers candidate triangles until visit(id) returns true; returns whether it did.
+  /// Offers candidate triangles until visit(id) returns true; returns whether it did. By the hierarchy of boxes if one
+  /// is given, else by the tree.
   template <class Visit, class Counts>
-  bool visit_candidates(Visit&& visit, Counts& counts) noexcept {
+  bool visit_candidates(const TriangleBvh* boxes, Visit&& visit, Counts& counts) noexcept {
     counts.far_ray();
-    return beyond_double_ ? visit_all(visit, counts) : walk(visit, counts);
-  }
-
-  /// The same by the hierarchy of boxes, without the tree.
-  template <class Visit, class Counts>
-  bool visit_candidates(const TriangleBvh& bvh, Visit&& visit, Counts& counts) noexcept {
-    counts.far_ray();
-    if (bvh.empty()) return false;
-    return beyond_double_ ? visit_all(visit, counts) : visit_node(bvh, 0, visit, counts);
+    if (beyond_double_) return visit_all(visit, counts);
+    if (!boxes) return walk(visit, counts);
+    return !boxes->empty() && visit_node(*boxes, 0, visit, counts);
   }
 
  private:
@@ -157,18 +152,21 @@ class FarRay {
 };
 
 template <class Counts>
-bool far_occluded(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts) noexcept {
+bool far_occluded(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts,
+                  const TriangleBvh* boxes = nullptr) noexcept {
   const DefaultFloatMode mode;
   return FarRay(scene, ray)
-      .visit_candidates([&](std::uint32_t id) { return blocks(scene, filter, ray, id, counts); }, counts);
+      .visit_candidates(
+          boxes, [&](std::uint32_t id) { return blocks(scene, filter, ray, id, counts); }, counts);
 }
 
 template <class Counts>
-void far_closest(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest,
-                 Counts& counts) noexcept {
+void far_closest(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest, Counts& counts,
+                 const TriangleBvh* boxes = nullptr) noexcept {
   const DefaultFloatMode mode;
   FarRay(scene, ray)
       .visit_candidates(
+          boxes,
           [&](std::uint32_t id) {
             nearest.offer(scene, filter, ray, id, counts);
             return false;

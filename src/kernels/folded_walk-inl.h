@@ -10,9 +10,8 @@
 
 #include <hwy/highway.h>
 
-#include <limits>
-
 #include "index/folded_bvh.h"
+#include "kernels/bvh_walk-inl.h"
 #include "kernels/ray_lanes-inl.h"
 #include "kernels/tree_kernel-inl.h"
 
@@ -23,6 +22,8 @@ namespace HWY_NAMESPACE {
 /// Sixteen boxes against one ray.
 class FoldedTimes {
  public:
+  using Time = float;
+
   FoldedTimes(const WalkRay& ray, Interval at) {
     const RayTag f;
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -36,21 +37,21 @@ class FoldedTimes {
     t1_ = hn::Set(f, at.t1);
   }
 
-  /// The lanes of boxes that the ray crosses, and when it enters them.
-  HWY_INLINE std::uint32_t cross(const FoldedNode& node, float (&times)[kRowLanes]) const {
+  float start() const { return hn::GetLane(t0_); }
+
+  HWY_INLINE void cross(const FoldedNode& node, CrossedBoxes<float, kRowLanes>& out) const {
     const RayTag f;
     const float* const faces = &node.lower[0][0];
-    std::uint32_t lanes = 0;
+    out.lanes = 0;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       auto t0 = t0_, t1 = t1_;
       for (std::uint32_t k = 0; k < 3; ++k) {
         t0 = hn::Max(t0, hn::Mul(hn::Sub(hn::Load(f, faces + entry_[k] + i), origin_[k]), inverse_[k]));
         t1 = hn::Min(t1, hn::Mul(hn::Sub(hn::Load(f, faces + exit_[k] + i), origin_[k]), inverse_[k]));
       }
-      lanes |= ray_bits(hn::Le(t0, t1)) << i;
-      hn::Store(t0, f, times + i);
+      out.lanes |= ray_bits(hn::Le(t0, t1)) << i;
+      hn::Store(t0, f, out.t0 + i);
     }
-    return lanes;
   }
 
  private:
@@ -59,18 +60,18 @@ class FoldedTimes {
 };
 
 /// For any hit: visits the rows that the ray may meet, those of a node at once, then its children as they come, the
-/// largest first. rows(triangles, t0) returns true to stop.
+/// largest first. rows(triangles, t0) returns true to stop. (For the nearest hit: bvh_walk.)
 template <class Rows, class Counts>
-HWY_INLINE bool any_walk(const FoldedBvh& folded, const TriangleBvh& bvh, const FoldedTimes& times, Rows&& rows,
-                         Counts& counts) {
+HWY_INLINE bool any_walk(const FoldedBvh& bvh, const FoldedTimes& times, Rows&& rows, Counts& counts) {
   std::uint32_t stack[(kRowLanes - 1) * kMaxBvhDepth + 1];
   std::uint32_t pending = 0, here = 0;
   for (;;) {
     counts.node();
-    const FoldedNode& node = folded.node(here);
-    alignas(64) float t0[kRowLanes];
+    const FoldedNode& node = bvh.node(here);
+    CrossedBoxes<float, kRowLanes> crossed;
+    times.cross(node, crossed);
     std::uint32_t inner[kRowLanes], inner_count = 0;
-    for (std::uint32_t rest = times.cross(node, t0); rest != 0; rest &= rest - 1) {
+    for (std::uint32_t rest = crossed.lanes; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = lane_of(rest), child = node.child[lane];
       if ((child & BvhNode::kLeaf) == 0) {
         inner[inner_count++] = child;
@@ -78,46 +79,11 @@ HWY_INLINE bool any_walk(const FoldedBvh& folded, const TriangleBvh& bvh, const 
       }
       counts.node();
       counts.leaf();
-      if (rows(bvh.rows(child & ~BvhNode::kLeaf), t0[lane])) return true;
+      if (rows(bvh.rows(child & ~BvhNode::kLeaf), crossed.t0[lane])) return true;
     }
     while (inner_count > 0) stack[pending++] = inner[--inner_count];
     if (pending == 0) return false;
     here = stack[--pending];
-  }
-}
-
-/// For the nearest hit: visits rows and nodes near ones first, until they start beyond `limit`, which is read anew for
-/// each.
-template <class Rows, class Counts>
-HWY_INLINE void near_walk(const FoldedBvh& folded, const TriangleBvh& bvh, const FoldedTimes& times, const float& limit,
-                          Rows&& rows, Counts& counts) {
-  struct Pending {
-    std::uint32_t child;
-    float t0;
-  };
-  Pending stack[(kRowLanes - 1) * kMaxBvhDepth + 1];
-  std::uint32_t pending = 0;
-  Pending here{0, -std::numeric_limits<float>::infinity()};
-  for (;;) {
-    counts.node();
-    if ((here.child & BvhNode::kLeaf) != 0) {
-      counts.leaf();
-      rows(bvh.rows(here.child & ~BvhNode::kLeaf), here.t0);
-    } else {
-      const FoldedNode& node = folded.node(here.child);
-      alignas(64) float t0[kRowLanes];
-      const std::uint32_t base = pending;
-      for (std::uint32_t rest = times.cross(node, t0); rest != 0; rest &= rest - 1) {
-        const std::uint32_t lane = lane_of(rest);
-        std::uint32_t place = pending++;
-        for (; place > base && stack[place - 1].t0 < t0[lane]; --place) stack[place] = stack[place - 1];
-        stack[place] = {node.child[lane], t0[lane]};
-      }
-    }
-    do {
-      if (pending == 0) return;
-      here = stack[--pending];
-    } while (here.t0 > limit);
   }
 }
 

@@ -33,27 +33,22 @@ struct IndexedKernel {
   template <class Counts>
   static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
                                   Counts& counts) {
-    if (HWY_UNLIKELY(!is_valid(ray))) {
-      counts.invalid_ray();
-      return false;
-    }
-    WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
-      return far_occluded(scene, filter, ray, counts);
-    const Interval at = clip_to_root(walk_ray, *scene.tree);
-    if (!(at.t0 <= at.t1)) return false;
-    const LeafTest test(walk_ray);
-    const auto leaf = [&](BlockRun run, float, float t1) {
-      return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
-    };
-    const PrimitiveIndex::NodeBits has_list = state.index.has_list();
-    const auto inner = [&, has_list](std::uint32_t node, float t0) {
-      if (HWY_LIKELY(!has_list[node])) return false;
-      const Block& list = state.index.list(node);
-      counts.indexed(list.count);
-      return block_blocks(scene, filter, ray, test, walk_ray, list, test.reach(list, t0), counts);
-    };
-    return stack_walk(*scene.tree, 0, at, walk_ray, walk_ray.tmax, leaf, counts, inner);
+    return occluded_by(scene, filter, ray, counts, nullptr, [&](const WalkRay& walk_ray) {
+      const Interval at = clip_to_root(walk_ray, *scene.tree);
+      if (!(at.t0 <= at.t1)) return false;
+      const LeafTest test(walk_ray);
+      const auto leaf = [&](BlockRun run, float, float t1) {
+        return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
+      };
+      const PrimitiveIndex::NodeBits has_list = state.index.has_list();
+      const auto inner = [&, has_list](std::uint32_t node, float t0) {
+        if (HWY_LIKELY(!has_list[node])) return false;
+        const Block& list = state.index.list(node);
+        counts.indexed(list.count);
+        return block_blocks(scene, filter, ray, test, walk_ray, list, test.reach(list, t0), counts);
+      };
+      return stack_walk(*scene.tree, 0, at, walk_ray, walk_ray.tmax, leaf, counts, inner);
+    });
   }
 };
 

@@ -116,6 +116,36 @@ HWY_INLINE void leaf_closest(const SceneView& scene, const Filter& filter, const
     block_closest(scene, filter, ray, test, walk_ray, *block, test.reach(*block, t1), nearest, limit, counts);
 }
 
+/// What all kernels do with a ray first: an invalid one hits nothing, and a far one goes by far_ray.h, with `boxes` or
+/// without. Of others answer(walk_ray) tells.
+template <class Counts, class Answer>
+HWY_INLINE bool occluded_by(const SceneView& scene, const Filter& filter, const Ray& ray, Counts& counts,
+                            const TriangleBvh* boxes, Answer&& answer) {
+  if (HWY_UNLIKELY(!is_valid(ray))) {
+    counts.invalid_ray();
+    return false;
+  }
+  WalkRay walk_ray;
+  if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
+    return far_occluded(scene, filter, ray, counts, boxes);
+  return answer(walk_ray);
+}
+
+/// The same for the nearest hit: find(walk_ray) fills `nearest`.
+template <class Counts, class Find>
+HWY_INLINE void closest_by(const SceneView& scene, const Filter& filter, const Ray& ray, Nearest& nearest,
+                           Counts& counts, const TriangleBvh* boxes, Find&& find) {
+  if (HWY_UNLIKELY(!is_valid(ray))) {
+    counts.invalid_ray();
+    return;
+  }
+  WalkRay walk_ray;
+  if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
+    far_closest(scene, filter, ray, nearest, counts, boxes);
+  else
+    find(walk_ray);
+}
+
 template <class Walk>
 struct TreeKernel {
   using State = typename Walk::State;
@@ -123,38 +153,26 @@ struct TreeKernel {
   template <class Counts>
   static HWY_INLINE bool occluded(const SceneView& scene, const Filter& filter, const Ray& ray, State& state,
                                   Counts& counts) {
-    if (HWY_UNLIKELY(!is_valid(ray))) {
-      counts.invalid_ray();
-      return false;
-    }
-    WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far))
-      return far_occluded(scene, filter, ray, counts);
-    const LeafTest test(walk_ray);
-    return Walk::walk(
-        scene, state, walk_ray, walk_ray.tmax,
-        [&](BlockRun run, float, float t1) { return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts); },
-        counts);
+    return occluded_by(scene, filter, ray, counts, nullptr, [&](const WalkRay& walk_ray) {
+      const LeafTest test(walk_ray);
+      const auto leaf = [&](BlockRun run, float, float t1) {
+        return leaf_blocks(scene, filter, ray, test, walk_ray, run, t1, counts);
+      };
+      return Walk::walk(scene, state, walk_ray, walk_ray.tmax, leaf, counts);
+    });
   }
 
   template <class Counts>
   static HWY_INLINE void closest(const SceneView& scene, const Filter& filter, const Ray& ray,
                                  [[maybe_unused]] State& state, Nearest& nearest, Counts& counts) {
-    if (HWY_UNLIKELY(!is_valid(ray))) {
-      counts.invalid_ray();
-      return;
-    }
-    WalkRay walk_ray;
-    if (HWY_UNLIKELY(prepare(ray, *scene.tree, walk_ray) == Reach::far)) {
-      far_closest(scene, filter, ray, nearest, counts);
-      return;
-    }
-    if constexpr (Walk::kNearFirst) {
-      closest_in<Walk>(scene, filter, ray, walk_ray, state, nearest, counts);
-    } else {
-      StackWalk::State none(scene);
-      closest_in<StackWalk>(scene, filter, ray, walk_ray, none, nearest, counts);
-    }
+    closest_by(scene, filter, ray, nearest, counts, nullptr, [&](const WalkRay& walk_ray) {
+      if constexpr (Walk::kNearFirst) {
+        closest_in<Walk>(scene, filter, ray, walk_ray, state, nearest, counts);
+      } else {
+        StackWalk::State none(scene);
+        closest_in<StackWalk>(scene, filter, ray, walk_ray, none, nearest, counts);
+      }
+    });
   }
 
  private:

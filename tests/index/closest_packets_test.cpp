@@ -80,11 +80,7 @@ TEST(ClosestPackets, MasksHold) {
 TEST(ClosestPackets, SkippedTrianglesAreNotThere) {
   const TwoMeshes two;
   const std::vector<Ray> rays = rays_in_front();
-  std::vector<Primitive> skip(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    Hit hit;
-    if (two.scene.closest(rays[i], hit)) skip[i] = hit.primitive;
-  }
+  const std::vector<Primitive> skip = first_met(two.scene, rays);
   QueryOptions options;
   options.skip = skip.data();
   expect_hits(two.scene, rays, options);
@@ -189,12 +185,8 @@ TEST(ClosestPackets, ScenesOfAnySize) {
     std::vector<Triangle> triangles = random_soup(300, 0.2f, 1);
     for (Triangle& t : triangles)
       for (Vec3& v : t.v) v *= std::ldexp(1.0f, exponent);
-    MeshView mesh;
-    mesh.triangle_count = triangles.size();
-    mesh.vertex_count = 3 * triangles.size();
-    mesh.vertices = &triangles[0].v[0].x;
     Scene scene;
-    ASSERT_TRUE(scene.add(mesh).ok());
+    ASSERT_TRUE(scene.add(view_of(triangles)).ok());
     ASSERT_TRUE(scene.commit().ok());
     for (const int of_directions : {0, exponent}) {
       std::vector<Ray> rays = rays_in_front();

@@ -34,11 +34,7 @@ TEST_P(RaysTogether, MasksHold) {
 TEST_P(RaysTogether, SkippedTrianglesAreNotThere) {
   const TwoMeshes two;
   const std::vector<Ray> rays = GetParam()();
-  std::vector<Primitive> skip(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    Hit hit;
-    if (two.scene.closest(rays[i], hit)) skip[i] = hit.primitive;
-  }
+  const std::vector<Primitive> skip = first_met(two.scene, rays);
   QueryOptions options;
   options.skip = skip.data();
   expect_right(two.scene, rays, options);

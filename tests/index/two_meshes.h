@@ -11,25 +11,39 @@
 
 namespace umbrix::detail {
 
+inline MeshView view_of(const std::vector<Triangle>& triangles) {
+  MeshView mesh;
+  mesh.triangle_count = triangles.size();
+  mesh.vertex_count = 3 * triangles.size();
+  mesh.vertices = &triangles[0].v[0].x;
+  return mesh;
+}
+
 /// Two meshes of loose triangles: one with a mask, one that half lets through.
 struct TwoMeshes {
   std::vector<Triangle> plain = random_soup(300, 0.2f, 1), other = random_soup(300, 0.2f, 2);
   Scene scene;
 
   explicit TwoMeshes(OpacityTest opacity = {}) {
-    MeshView mesh;
-    mesh.triangle_count = plain.size();
-    mesh.vertex_count = 3 * plain.size();
-    mesh.vertices = &plain[0].v[0].x;
-    mesh.mask = 1;
-    EXPECT_TRUE(scene.add(mesh).ok());
-    mesh.vertices = &other[0].v[0].x;
-    mesh.mask = 2;
-    mesh.opacity = opacity;
-    EXPECT_TRUE(scene.add(mesh).ok());
+    MeshView first = view_of(plain), second = view_of(other);
+    first.mask = 1;
+    EXPECT_TRUE(scene.add(first).ok());
+    second.mask = 2;
+    second.opacity = opacity;
+    EXPECT_TRUE(scene.add(second).ok());
     EXPECT_TRUE(scene.commit().ok());
   }
 };
+
+/// What each ray meets first.
+inline std::vector<Primitive> first_met(const Scene& scene, const std::vector<Ray>& rays) {
+  std::vector<Primitive> met(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Hit hit;
+    if (scene.closest(rays[i], hit)) met[i] = hit.primitive;
+  }
+  return met;
+}
 
 /// As `brute` answers each, on every instruction set.
 inline void expect_right(const Scene& scene, const std::vector<Ray>& rays, QueryOptions options = {}) {
