@@ -18,9 +18,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/bundle_hull-inl.h"
 #include "kernels/group_rays.h"
 #include "kernels/ray_lanes-inl.h"
-#include "kernels/ray_raster-inl.h"
 #include "kernels/shaft.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,43 +49,12 @@ struct RayHits {
 /// A bundle's rays side by side.
 class BundleView {
  public:
-  explicit BundleView(const RayBundle& b) : BundleView(b, Box3(b)) {}
-
-  /// Which of sixteen boxes some of the `open` rays may meet, and how far the farthest point of each is from the start
-  /// at most.
-  HWY_INLINE std::uint32_t look_at_boxes(const MeetingBoxes& boxes, std::uint32_t open,
-                                         float (&reach)[kRowLanes]) const {
-    const RayTag f;
-    std::uint32_t result = 0;
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      RayVec lower[3], upper[3];
-      auto farthest = hn::Zero(f);
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto start = hn::Set(f, start_[k]);
-        lower[k] = hn::Sub(hn::Load(f, boxes.lower[axis(k)] + i), start);
-        upper[k] = hn::Sub(hn::Load(f, boxes.upper[axis(k)] + i), start);
-        farthest = hn::Add(farthest, hn::Max(hn::Neg(lower[k]), upper[k]));
-      }
-      hn::Store(hn::Mul(farthest, hn::Set(f, 1 + 0x1p-20f)), f, reach + i);
-      const auto rays = hn::And(raster_.passing_boxes(lower, upper), in_all(open));
-      result |= ray_bits(hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())))) << i;
+  BundleView(const RayBundle& b, const BundleHull& hull) : bundle_(b) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      middle_[k] = 0.5f * (hull.low(k) + hull.high(k));
+      half_[k] = 0.5f * (hull.high(k) - hull.low(k));
+      length_ += std::max(-hull.low(k), hull.high(k));
     }
-    return result;
-  }
-
-  /// Which of sixteen triangles some of the `open` rays may meet, by their rectangles alone.
-  HWY_INLINE std::uint32_t pass(const TriangleRows& rows, std::uint32_t open) const {
-    const RayTag f;
-    std::uint32_t result = 0;
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      RayVec offset[3][3];
-      for (std::uint32_t k = 0; k < 3; ++k)
-        for (std::uint32_t v = 0; v < 3; ++v)
-          offset[v][k] = hn::Sub(hn::Load(f, rows.v[v][axis(k)] + i), hn::Set(f, start_[k]));
-      const auto rays = hn::And(raster_.passing(offset), in_all(open));
-      result |= ray_bits(hn::RebindMask(f, hn::Ne(rays, hn::Zero(RayBitsTag())))) << i;
-    }
-    return result;
   }
 
   /// Which of some triangles the rays may meet, none of them farther than `reach`; of these `out` is filled.
@@ -104,7 +73,8 @@ class BundleView {
     RayHits result;
     const auto edge_error = hn::Set(f, t.edge_error[lane]);
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto x = hn::Load(f, far_[0] + i), y = hn::Load(f, far_[1] + i), z = hn::Load(f, far_[2] + i);
+      const auto x = hn::Load(f, bundle_.far[0] + i), y = hn::Load(f, bundle_.far[1] + i),
+                 z = hn::Load(f, bundle_.far[2] + i);
       const auto product = [&](const float(&row)[3][kRowLanes]) {
         return hn::MulAdd(z, hn::Set(f, row[2][lane]),
                           hn::MulAdd(y, hn::Set(f, row[1][lane]), hn::Mul(x, hn::Set(f, row[0][lane]))));
@@ -134,38 +104,6 @@ class BundleView {
   const RayBundle& bundle() const { return bundle_; }
 
  private:
-  struct Box3 {
-    explicit Box3(const RayBundle& b) {
-      const RayTag f;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        auto low = hn::Load(f, b.far[k]), high = low;
-        for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
-             i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-          low = hn::Min(low, hn::Load(f, b.far[k] + i));
-          high = hn::Max(high, hn::Load(f, b.far[k] + i));
-        }
-        const float least = hn::GetLane(hn::MinOfLanes(f, low)), most = hn::GetLane(hn::MaxOfLanes(f, high));
-        middle[k] = 0.5f * (least + most);
-        half[k] = 0.5f * (most - least);
-        length += std::max(-least, most);
-      }
-    }
-    float middle[3], half[3];
-    float length = 0;
-  };
-
-  BundleView(const RayBundle& b, const Box3& box) : bundle_(b), raster_(b, box.middle), length_(box.length) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      far_[k] = b.far[axis(k)];
-      start_[k] = b.start[axis(k)];
-      middle_[k] = box.middle[axis(k)];
-      half_[k] = box.half[axis(k)];
-    }
-  }
-
-  std::uint32_t axis(std::uint32_t k) const { return raster_.axis(k); }
-  static RayInts in_all(std::uint32_t rays) { return hn::Set(RayBitsTag(), static_cast<std::int32_t>(rays)); }
-
   HWY_INLINE void look_at(const TriangleRows& rows, float reach, std::uint32_t i, SeenTriangles& out,
                           SeenLanes& result) const {
     const RayTag f;
@@ -174,12 +112,12 @@ class BundleView {
     auto plane = zero, end = zero, end_off = zero;
     for (std::uint32_t k = 0; k < 3; ++k) {
       for (std::uint32_t v = 0; v < 3; ++v) {
-        vertex[v][k] = hn::Load(f, rows.v[v][axis(k)] + i);
-        offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, start_[k]));
+        vertex[v][k] = hn::Load(f, rows.v[v][k] + i);
+        offset[v][k] = hn::Sub(vertex[v][k], hn::Set(f, bundle_.start[k]));
       }
     }
     for (std::uint32_t k = 0; k < 3; ++k) {
-      normal[k] = hn::Load(f, rows.normal[axis(k)] + i);
+      normal[k] = hn::Load(f, rows.normal[k] + i);
       plane = hn::MulAdd(normal[k], offset[0][k], plane);
       end = hn::MulAdd(normal[k], hn::Set(f, middle_[k]), end);
       end_off = hn::MulAdd(hn::Abs(normal[k]), hn::Set(f, half_[k]), end_off);
@@ -232,10 +170,8 @@ class BundleView {
   static constexpr float kTiny = 0x1p-100f;
 
   const RayBundle& bundle_;
-  RayRaster raster_;
-  const float* far_[3];
-  float start_[3], middle_[3], half_[3];  ///< on the picture's axes
-  float length_;                          ///< no ray is longer, as a 1-norm
+  float middle_[3], half_[3];  ///< of the box of the rays' ends, from their start
+  float length_ = 0;           ///< no ray is longer, as a 1-norm
 };
 
 }  // namespace HWY_NAMESPACE

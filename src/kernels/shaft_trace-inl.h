@@ -17,6 +17,7 @@
 #include <new>
 
 #include "core/float_mode.h"
+#include "kernels/bundle_walk-inl.h"
 #include "kernels/light_view.h"
 #include "kernels/shaft_bundles-inl.h"
 #include "kernels/shaft_cut-inl.h"
@@ -31,12 +32,7 @@ namespace HWY_NAMESPACE {
 class ShaftPackets {
  public:
   ShaftPackets(const SceneView& scene, const GroupRays& rays, const TriangleBvh& bvh, ShaftScratch& scratch)
-      : scene_(scene),
-        rays_(rays),
-        bvh_(bvh),
-        scratch_(scratch),
-        filter_(scene, rays.mask),
-        plain_(!rays.skip && filter_.passes_all()) {}
+      : bvh_(bvh), scratch_(scratch), tree_(*scene.tree), rays_(rays.rays), answer_(scene, rays) {}
 
   /// The rays of shafts that may meet very much had better walk alone.
   template <class Alone>
@@ -46,10 +42,8 @@ class ShaftPackets {
       const Shaft& shaft = scratch_.shafts[i];
       const std::uint32_t first = scratch_.counts[i], last = scratch_.counts[i + 1];
       if (HWY_UNLIKELY(last - first > kMostMeetings)) {
-        for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1) {
-          const RayBundle& b = scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)];
-          alone(b.first, b.count);
-        }
+        for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1)
+          alone(scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)]);
       } else if (first != last) {
         trace_shaft(shaft, first, last);
       }
@@ -84,109 +78,80 @@ class ShaftPackets {
   }
 
   void meet_bundle(const RayBundle& bundle) {
-    const BundleView view(bundle);
-    blocked_ = ~((1u << bundle.count) - 1) & 0xFFFF;
-    unsure_count_ = 0;
-    const auto parts = static_cast<std::uint32_t>(scratch_.boxes.size()),
-               first = favourite_ == kNone ? 0 : favourite_ / kRowLanes;
-    for (std::uint32_t i = 0; i < parts && blocked_ != 0xFFFF; ++i)
-      meet_part(view, i == 0 ? first : i <= first ? i - 1 : i);  // what blocked the bundle before comes first
-    for (std::uint32_t i = 0; i < unsure_count_; ++i) decide(bundle, unsure_[i].id, unsure_[i].lanes);
-    std::uint8_t* const out = rays_.out + bundle.first;
-    for (std::uint32_t rest = blocked_ & ((1u << bundle.count) - 1); rest != 0; rest &= rest - 1)
-      out[first_lane(rest)] = 1;
+    const BundleHull hull(bundle);
+    std::uint32_t met[kMostParts], rows = 0;
+    const auto parts = static_cast<std::uint32_t>(scratch_.boxes.size());
+    for (std::uint32_t i = 0; i < parts; ++i) {
+      const std::uint32_t here = std::min(count_ - i * kRowLanes, kRowLanes);
+      met[i] = hull.meets(scratch_.boxes[i].lower, scratch_.boxes[i].upper, faces_[i]) & ((1u << here) - 1);
+      rows += static_cast<std::uint32_t>(hwy::PopCount(met[i]));
+    }
+    if (rows == 0) return;
+    const BundleView view(bundle, hull);
+    answer_.start(bundle);
+    const bool are_many = rows > kFewRows && walk_rays_.prepare(rays_, bundle, tree_);
+    if (are_many) times_.set(bundle);
+    const std::uint32_t first = favourite_ == kNone ? 0 : favourite_ / kRowLanes;
+    for (std::uint32_t i = 0; i < parts && answer_.open() != 0; ++i) {
+      const std::uint32_t part = i == 0 ? first : i <= first ? i - 1 : i;  // what blocked the bundle before comes first
+      if (met[part] == 0) continue;
+      if (are_many) met[part] = meet_alone(part, met[part]);
+      meet_part(view, part, met[part]);
+    }
+    answer_.finish();
   }
 
-  /// Sixteen of the meetings.
-  HWY_INLINE void meet_part(const BundleView& view, std::uint32_t part) {
-    const ShaftMeeting* const meetings = meetings_ + part * kRowLanes;
-    const std::uint32_t here = std::min(count_ - part * kRowLanes, kRowLanes);
-    alignas(64) float reach[kRowLanes];
-    std::uint32_t met = view.look_at_boxes(scratch_.boxes[part], ~blocked_, reach) & ((1u << here) - 1);
+  /// Of sixteen meetings, those that few rays meet, ray by ray. Returns the rest that some meet.
+  HWY_INLINE std::uint32_t meet_alone(std::uint32_t part, std::uint32_t boxes) {
+    alignas(64) std::uint16_t rays[kRowLanes];  // by box
+    std::uint32_t rest = times_.by_boxes(faces_[part], boxes, answer_.open(), rays);
+    for (std::uint32_t some = rest; some != 0; some &= some - 1) {
+      const std::uint32_t lane = first_lane(some);
+      if (hwy::PopCount(rays[lane]) > kFewRays) continue;
+      rest &= ~(1u << lane);
+      for (std::uint32_t in = rays[lane] & answer_.open(); in != 0; in &= in - 1) {
+        const std::uint32_t ray = first_lane(in);
+        answer_.meet_alone(ray, walk_rays_.ray(ray), rows_of(part, lane), faces_[part].reach(lane));
+      }
+    }
+    return rest;
+  }
+
+  /// Those of sixteen meetings whose boxes are met.
+  HWY_INLINE void meet_part(const BundleView& view, std::uint32_t part, std::uint32_t met) {
     const std::uint32_t favourite = favourite_ - part * kRowLanes;
     if (favourite < kRowLanes && (met >> favourite & 1) != 0) {
       met &= ~(1u << favourite);
-      meet_rows(view, meetings[favourite], meetings[favourite].lanes, reach[favourite]);
-      if (blocked_ == 0xFFFF) return;
+      meet_row(view, part, favourite);
     }
-    // All rows before any: a branch on each would be a guess that is often wrong.
-    std::uint32_t passed[kRowLanes], lanes[kRowLanes], count = 0;
-    for (; met != 0; met &= met - 1) {
-      const std::uint32_t i = first_lane(met);
-      passed[count] = i;
-      lanes[count] = view.pass(bvh_.rows(meetings[i].rows), ~blocked_) & meetings[i].lanes;
-      count += lanes[count] != 0 ? 1 : 0;
-    }
-    for (std::uint32_t k = 0; k < count && blocked_ != 0xFFFF; ++k) {
-      const std::uint32_t before = blocked_;
-      meet_rows(view, meetings[passed[k]], lanes[k], reach[passed[k]]);
-      if (blocked_ != before) favourite_ = part * kRowLanes + passed[k];
+    for (; met != 0 && answer_.open() != 0; met &= met - 1) {
+      const std::uint32_t before = answer_.open(), lane = first_lane(met);
+      meet_row(view, part, lane);
+      if (answer_.open() != before) favourite_ = part * kRowLanes + lane;
     }
   }
 
-  HWY_INLINE void meet_rows(const BundleView& view, const ShaftMeeting& m, std::uint32_t wanted, float reach) {
-    const TriangleRows& rows = bvh_.rows(m.rows);
-    const SeenLanes seen = view.look(rows, wanted, reach, seen_);
-    if (seen.met == 0) return;
-    if (plain_ && (seen.blocks & seen.met) != 0 && !view.bundle().has_begin) {
-      blocked_ = 0xFFFF;
-      return;
-    }
-    for (std::uint32_t rest = seen.met; rest != 0; rest &= rest - 1) {
-      const std::uint32_t lane = first_lane(rest);
-      const RayHits hits = view.meet(seen_, lane, (seen.edge_on >> lane & 1) != 0);
-      if ((hits.hit | hits.unsure) == 0) continue;
-      if (HWY_LIKELY(plain_)) {
-        blocked_ |= hits.hit;
-        if (blocked_ == 0xFFFF) return;
-      } else {
-        admit(view.bundle(), rows.id[lane], hits.hit & ~blocked_);
-      }
-      if (HWY_UNLIKELY((hits.unsure & ~blocked_) != 0)) note_unsure(view.bundle(), rows.id[lane], hits.unsure);
-    }
+  HWY_INLINE void meet_row(const BundleView& view, std::uint32_t part, std::uint32_t lane) {
+    answer_.meet(view, rows_of(part, lane), meetings_[part * kRowLanes + lane].lanes, faces_[part].reach(lane));
+  }
+  const TriangleRows& rows_of(std::uint32_t part, std::uint32_t lane) const {
+    return bvh_.rows(meetings_[part * kRowLanes + lane].rows);
   }
 
-  /// Other triangles may yet block these rays for certain.
-  void note_unsure(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
-    if (unsure_count_ == kMostUnsure)
-      decide(bundle, id, lanes);
-    else
-      unsure_[unsure_count_++] = {id, lanes};
-  }
+  /// From more rows than these it pays to look which rays meet each box; more rays than those meet a row together.
+  static constexpr std::uint32_t kFewRows = 4, kFewRays = 5;
+  static constexpr std::uint32_t kMostMeetings = 128, kMostParts = kMostMeetings / kRowLanes, kNone = ~0u;
 
-  HWY_NOINLINE void decide(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
-    NoCounts none;
-    for (std::uint32_t rest = lanes & ~blocked_; rest != 0; rest &= rest - 1) {
-      const std::size_t i = bundle.first + first_lane(rest);
-      if (rays_.skip) filter_.set_skip(rays_.skip[i]);
-      if (blocks(scene_, filter_, rays_.rays[i], id, none)) blocked_ |= rest & (0u - rest);
-    }
-  }
-
-  HWY_NOINLINE void admit(const RayBundle& bundle, std::uint32_t id, std::uint32_t lanes) {
-    for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-      const std::size_t i = bundle.first + first_lane(rest);
-      if (rays_.skip) filter_.set_skip(rays_.skip[i]);
-      if (filter_.admits(id) && filter_.is_opaque(rays_.rays[i], id)) blocked_ |= rest & (0u - rest);
-    }
-  }
-
-  struct Unsure {
-    std::uint32_t id, lanes;
-  };
-  static constexpr std::uint32_t kMostUnsure = 32, kMostMeetings = 256, kNone = ~0u;
-
-  const SceneView& scene_;
-  const GroupRays& rays_;
   const TriangleBvh& bvh_;
   ShaftScratch& scratch_;
-  Filter filter_;
-  bool plain_;
+  const Tree& tree_;
+  const RaySpan& rays_;
+  BundleAnswer answer_;
+  BundleTimes times_;
+  WalkRays walk_rays_;
   const ShaftMeeting* meetings_ = nullptr;  ///< of the shaft
-  std::uint32_t count_ = 0, blocked_ = 0, favourite_ = 0;
-  Unsure unsure_[kMostUnsure];
-  std::uint32_t unsure_count_ = 0;
-  SeenTriangles seen_;
+  std::uint32_t count_ = 0, favourite_ = 0;
+  Faces faces_[kMostParts];  ///< of the meetings' boxes, as a bundle sees them
 };
 
 /// One call's rays.
@@ -197,14 +162,14 @@ class ShaftTrace {
   /// Answers all rays: those that are not for it by other(first, count), those that go all ways from a point by
   /// alone(first, count). False, with no answer of use, if there are few, they do not come in bundles, or there is no
   /// memory.
-  template <class Other, class Alone>
-  bool trace(const GroupRays& rays, Other&& other, Alone&& alone) {
+  template <class Other>
+  bool trace(const GroupRays& rays, Other&& other) {
     if (rays.rays.count < kFewestRays || table_.bvh().empty()) return false;
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || !comes_in_bundles(rays.rays)) return false;
     const DefaultFloatMode mode;
     try {
       std::unique_ptr<LightViewScratch> scratch = table_.borrow();
-      trace(rays, scratch->shafts, other, alone);
+      trace(rays, scratch->shafts, other);
       table_.give_back(std::move(scratch));
       return true;
     } catch (const std::bad_alloc&) {
@@ -215,7 +180,7 @@ class ShaftTrace {
  private:
   static constexpr std::size_t kFewestRays = 64;
   static constexpr int kMostScale = 60;
-  static constexpr std::size_t kMostMet = 64;
+  static constexpr std::size_t kMostMet = 16;
 
   /// After batches that shafts were not for, some are not tried: twice as many each time.
   class Patience {
@@ -247,22 +212,20 @@ class ShaftTrace {
     return left >= 3 * kSamples;
   }
 
-  template <class Other, class Alone>
-  void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other, Alone&& alone) {
+  template <class Other>
+  void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other) {
     const BundleReader reader(*scene_.tree, rays.rays);
     ShaftCutter cutter(scratch.bundles, scratch.shafts, scratch.wide);
     ShaftWalk walk(table_.bvh(), scratch);
     ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
+    BundleWalk by_itself(scene_, rays);
+    const auto alone = [&](const RayBundle& b) {
+      if (!by_itself.trace(b)) other(b.first, b.count);
+    };
     scratch.bundles.resize(kBatchBundles);
     std::memset(rays.out, 0, rays.rays.count);
     Patience patience;
     for (std::size_t next = 0; next < rays.rays.count;) {
-      const std::size_t first = next;
-      if (patience.is_waiting()) {
-        next = std::min(rays.rays.count, first + kBatchBundles * kRowLanes);
-        alone(first, next - first);
-        continue;
-      }
       std::uint32_t count = 0;
       while (count < kBatchBundles && next < rays.rays.count) {
         RayBundle& b = scratch.bundles[count];
@@ -274,16 +237,20 @@ class ShaftTrace {
           other(b.first, b.count);
       }
       if (count == 0) continue;
+      if (patience.is_waiting()) {
+        for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
+        continue;
+      }
       scratch.shafts.clear();
       scratch.wide.clear();
       for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
         cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
-      for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i].first, scratch.bundles[i].count);
+      for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i]);
       const bool is_good = walk.walk(kMostMet * count);
       if (is_good)
         packets.trace(alone);
       else
-        alone(first, next - first);
+        for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
       patience.note(is_good && 4 * scratch.wide.size() < 3 * count);
     }
   }

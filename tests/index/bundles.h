@@ -9,8 +9,9 @@
 
 namespace umbrix::detail {
 
-/// `each` rays from each of neighbouring points to a box around the light.
-inline std::vector<Ray> bundles(std::size_t points, std::size_t each, float spread, std::uint32_t seed) {
+/// `each` rays from each of neighbouring points to a box around the light, half as large as `reach` each way.
+inline std::vector<Ray> bundles(std::size_t points, std::size_t each, float spread, std::uint32_t seed,
+                                float reach = 0.1f) {
   std::mt19937 random(seed);
   const Vec3 light(0.3f, 0.9f, -0.2f);
   std::vector<Ray> rays;
@@ -19,7 +20,7 @@ inline std::vector<Ray> bundles(std::size_t points, std::size_t each, float spre
     if (i % 40 == 0) middle = random_point(random);
     const Vec3 from = middle + spread * random_point(random);
     for (std::size_t k = 0; k < each; ++k) {
-      const Vec3 d = light + 0.1f * random_point(random) - from;
+      const Vec3 d = light + reach * random_point(random) - from;
       rays.push_back({{from.x, from.y, from.z}, 0, {d.x, d.y, d.z}, 1});
     }
   }

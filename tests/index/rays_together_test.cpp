@@ -19,6 +19,7 @@ using MakeRays = std::vector<Ray> (*)();
 
 std::vector<Ray> to_one_light() { return rays_to_light(3000, Vec3(0.3f, 0.9f, -0.2f), 5); }
 std::vector<Ray> in_bundles() { return bundles(300, 16, 0.05f, 5); }
+std::vector<Ray> in_wide_bundles() { return bundles(300, 16, 0.05f, 5, 2); }
 
 class RaysTogether : public testing::TestWithParam<MakeRays> {};
 
@@ -104,9 +105,12 @@ TEST_P(RaysTogether, RaysMayLieInLargerThings) {
   EXPECT_EQ(together, apart);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rays, RaysTogether, testing::Values(&to_one_light, &in_bundles), [](const auto& rays) {
-  return std::string(rays.param == &to_one_light ? "ToOneLight" : "InBundles");
-});
+INSTANTIATE_TEST_SUITE_P(Rays, RaysTogether, testing::Values(&to_one_light, &in_bundles, &in_wide_bundles),
+                         [](const auto& rays) {
+                           return std::string(rays.param == &to_one_light ? "ToOneLight"
+                                              : rays.param == &in_bundles ? "InBundles"
+                                                                          : "InWideBundles");
+                         });
 
 }  // namespace
 }  // namespace umbrix::detail

@@ -26,6 +26,37 @@ TEST(Shafts, PointsTogetherAndApart) {
   }
 }
 
+TEST(Shafts, LightsOfAnySize) {
+  const TwoMeshes two;
+  for (const float reach : {1e-6f, 0.01f, 0.5f, 1.0f, 3.0f}) {
+    SCOPED_TRACE(reach);
+    expect_right(two.scene, bundles(200, 16, 0.02f, 7, reach));
+  }
+}
+
+TEST(Shafts, TinyScenes) {  // in which denormals matter
+  for (const float scale : {1e-3f, 1e-15f, 1e-30f}) {
+    SCOPED_TRACE(scale);
+    std::vector<Triangle> soup = random_soup(300, 0.2f, 1);
+    for (Triangle& triangle : soup)
+      for (Vec3& v : triangle.v) v *= scale;
+    Scene scene;
+    ASSERT_TRUE(scene.add(view_of(soup)).ok());
+    ASSERT_TRUE(scene.commit().ok());
+    std::vector<Ray> rays = bundles(200, 16, 0.02f, 8, 1.0f);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      for (float& x : rays[i].origin) x *= scale;
+      if (i % 3 != 0)
+        for (float& x : rays[i].direction) x *= scale;
+      else
+        rays[i].tmax *= scale;
+      if (i % 50 == 0) rays[i].tmin = 1e-40f;
+      if (i % 64 == 0) rays[i].direction[0] = 1e-41f;
+    }
+    expect_right(scene, rays);
+  }
+}
+
 TEST(Shafts, MoreThanOneBatch) {
   const TwoMeshes two;
   const std::vector<Ray> rays = bundles(3000, 16, 0.02f, 6);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hull of a bundle's rays: on each axis they lie between two lines over the time from start to ends. It meets a box
+// if there is a time at which the box in between does. A time is a difference over a length, each of them, the quotient
+// and the length's inverse rounded once; that of an exit is made later by more than two such errors.
+
+#if defined(UMBRIX_KERNELS_BUNDLE_HULL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef UMBRIX_KERNELS_BUNDLE_HULL_INL_H_
+#undef UMBRIX_KERNELS_BUNDLE_HULL_INL_H_
+#else
+#define UMBRIX_KERNELS_BUNDLE_HULL_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/ray_lanes-inl.h"
+#include "kernels/shaft.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace umbrix::detail {
+namespace HWY_NAMESPACE {
+
+/// What makes the time of an exit certainly late enough.
+inline constexpr float kLaterExit = 1 + 0x1p-20f;
+
+/// Nothing moves faster through the planes of an axis: the time at one is beyond all others then, and a ray moves by
+/// less than any box is grown.
+inline constexpr float kLeastSlope = 0x1p-64f;
+
+/// Sixteen boxes as offsets from a start: lower, then upper faces.
+struct alignas(64) Faces {
+  float at[6][kRowLanes];
+
+  /// No point of a box is farther from the start, as a 1-norm.
+  float reach(std::uint32_t lane) const {
+    float result = 0;
+    for (std::uint32_t k = 0; k < 3; ++k) result += std::max(-at[k][lane], at[3 + k][lane]);
+    return result * (1 + 0x1p-20f);
+  }
+};
+
+class BundleHull {
+ public:
+  explicit BundleHull(const RayBundle& b) : start_(b.start) {
+    const RayTag f;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      auto least = hn::Load(f, b.far[k]), most = least;
+      for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
+           i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+        least = hn::Min(least, hn::Load(f, b.far[k] + i));
+        most = hn::Max(most, hn::Load(f, b.far[k] + i));
+      }
+      low_[k] = hn::GetLane(hn::MinOfLanes(f, least));
+      high_[k] = hn::GetLane(hn::MaxOfLanes(f, most));
+      inverse_low_[k] = inverse(low_[k]);
+      inverse_high_[k] = inverse(high_[k]);
+    }
+  }
+
+  /// The box of the rays' ends, from the start.
+  float low(std::uint32_t k) const { return low_[k]; }
+  float high(std::uint32_t k) const { return high_[k]; }
+
+  /// Fills `faces`.
+  HWY_INLINE void see(const float (&lower)[3][kRowLanes], const float (&upper)[3][kRowLanes], Faces& faces) const {
+    const RayTag f;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto start = hn::Set(f, start_[k]);
+        hn::Store(hn::Sub(hn::Load(f, lower[k] + i), start), f, faces.at[k] + i);
+        hn::Store(hn::Sub(hn::Load(f, upper[k] + i), start), f, faces.at[3 + k] + i);
+      }
+    }
+  }
+
+  /// Which of sixteen boxes it meets; fills `faces`.
+  HWY_INLINE std::uint32_t meets(const float (&lower)[3][kRowLanes], const float (&upper)[3][kRowLanes],
+                                 Faces& faces) const {
+    const RayTag f;
+    std::uint32_t result = 0;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto t0 = hn::Zero(f), t1 = hn::Set(f, 1.0f);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto start = hn::Set(f, start_[k]);
+        const auto low_face = hn::Sub(hn::Load(f, lower[k] + i), start);
+        const auto high_face = hn::Sub(hn::Load(f, upper[k] + i), start);
+        hn::Store(low_face, f, faces.at[k] + i);
+        hn::Store(high_face, f, faces.at[3 + k] + i);
+        const auto low = hn::Mul(high_face, hn::Set(f, inverse_low_[k]));
+        const auto high = hn::Mul(low_face, hn::Set(f, inverse_high_[k]));
+        if (inverse_low_[k] > 0)
+          t1 = hn::Min(t1, low);
+        else
+          t0 = hn::Max(t0, low);
+        if (inverse_high_[k] > 0)
+          t0 = hn::Max(t0, high);
+        else
+          t1 = hn::Min(t1, high);
+      }
+      result |= ray_bits(hn::Le(t0, hn::Mul(t1, hn::Set(f, kLaterExit)))) << i;
+    }
+    return result;
+  }
+
+ private:
+  static float inverse(float x) { return 1 / (std::abs(x) < kLeastSlope ? std::copysign(kLeastSlope, x) : x); }
+
+  const float (&start_)[3];
+  float low_[3], high_[3];
+  float inverse_low_[3], inverse_high_[3];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace umbrix::detail
+HWY_AFTER_NAMESPACE();
+
+#endif
