@@ -35,7 +35,9 @@ if [ "$quick" != --quick ]; then
   # Sanitizers look for faults in the code, not in the answers: fewer judged rays (tests/oracle), no large scenes.
   UMBRIX_SCENES_DIR=none check_preset asan
 
-  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' | xargs -P "$jobs" -n 1 clang-tidy-14 -quiet -p build/release \
+  # One instruction set: all are compiled from the same sources.
+  printf '%s\n' "${sources[@]}" | grep '^src/.*cpp$' |
+    xargs -P "$jobs" -n 1 clang-tidy-14 -quiet -p build/release --extra-arg=-DHWY_COMPILE_ONLY_STATIC \
     2> >(grep -v 'warnings\? generated' >&2)
 fi
 

@@ -149,7 +149,7 @@ TEST_F(Resume, JobDependsOnTextures) {
 }
 
 /// A render of many tiles that takes a while on any machine.
-const std::vector<std::string> kLong = {"--size", "256x256", "--spp", "64", "-j", "1"};
+const std::vector<std::string> kLong = {"--size", "256x256", "--spp", UMBRIX_LONG_SPP, "-j", "1"};
 
 class Checkpoint : public Resume {
  protected:
