@@ -13,8 +13,8 @@ struct alignas(64) FoldedNode {
   std::uint32_t child[kRowLanes];  ///< a folded node, or BvhNode::kLeaf with the place of one of the hierarchy's rows
 };
 
-/// The hierarchy of boxes with its levels folded, for rays that walk alone: sixteen boxes are tested at once. The
-/// largest children are taken apart first (Wald, Benthin & Boulos 2008, "Getting rid of packets").
+/// The hierarchy of boxes with its levels folded, for rays and bundles that walk by themselves: sixteen boxes are
+/// tested at once. The largest children are taken apart first (Wald, Benthin & Boulos 2008, "Getting rid of packets").
 class FoldedBvh {
  public:
   static constexpr std::uint32_t kWidth = kRowLanes;
