@@ -127,6 +127,13 @@ struct LightViewScratch {
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
+  /// Triangles that are being fetched, and the groups that want them.
+  struct WaitingLeaf {
+    std::uint32_t rows = 0;
+    std::vector<std::uint64_t> list;
+  };
+  static constexpr std::uint32_t kWaitingLeaves = 8;
+  WaitingLeaf waiting[kWaitingLeaves];
   ChunkedArray<LightTriangles> triangles;
   std::uint32_t triangle_count = 0;
   std::vector<Meeting> meetings, sorted;

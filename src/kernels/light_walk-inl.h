@@ -112,6 +112,7 @@ class LightWalk {
       for (std::uint32_t row = 0; row < groups.rows.size(); ++row)
         lists.push_back(static_cast<std::uint64_t>(row) << 32 | groups.live[row]);
       visit(here, 0, 0, lists.size(), lists.size());
+      while (waiting_count_ > 0) visit_waiting(here);
       if (room_ == 0) return false;
       first_group_ += static_cast<std::uint32_t>(groups.groups.size());
     }
@@ -209,16 +210,13 @@ class LightWalk {
         if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
       }
     }
-    for (std::uint32_t child = 0; child < kBvhWidth; ++child)
-      if (ends[child] != top + child * count && (node.child[child] & BvhNode::kLeaf) != 0)
-        prefetch(bvh_.rows(node.child[child] & ~BvhNode::kLeaf));
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
       const std::size_t list = top + child * count;
       if (ends[child] == list) continue;
       if (room_ == 0) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
-        visit_rows(here, bvh_.rows(next & ~BvhNode::kLeaf), list, ends[child] - list);
+        add_leaf(here, next & ~BvhNode::kLeaf, list, ends[child]);
       else
         visit(here, next, list, ends[child] - list, top + kBvhWidth * count);
     }
@@ -229,7 +227,25 @@ class LightWalk {
       hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
-  void visit_rows(Here& here, const TriangleRows& rows, std::size_t first, std::size_t count) {
+  /// Leaves wait for a few others, so that their triangles can be fetched.
+  void add_leaf(Here& here, std::uint32_t rows, std::size_t first, std::size_t last) {
+    prefetch(bvh_.rows(rows));
+    if (waiting_count_ == LightViewScratch::kWaitingLeaves) visit_waiting(here);
+    LightViewScratch::WaitingLeaf& leaf =
+        scratch_.waiting[(first_waiting_ + waiting_count_++) % LightViewScratch::kWaitingLeaves];
+    leaf.rows = rows;
+    leaf.list.assign(scratch_.lists.begin() + static_cast<std::ptrdiff_t>(first),
+                     scratch_.lists.begin() + static_cast<std::ptrdiff_t>(last));
+  }
+
+  void visit_waiting(Here& here) {
+    const LightViewScratch::WaitingLeaf& leaf = scratch_.waiting[first_waiting_];
+    first_waiting_ = (first_waiting_ + 1) % LightViewScratch::kWaitingLeaves;
+    --waiting_count_;
+    if (room_ != 0) visit_rows(here, bvh_.rows(leaf.rows), leaf.list);
+  }
+
+  void visit_rows(Here& here, const TriangleRows& rows, const std::vector<std::uint64_t>& list) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
     scratch_.triangles.grow(scratch_.triangle_count + 1);
     LightTriangles& triangles = scratch_.triangles[scratch_.triangle_count];
@@ -237,10 +253,11 @@ class LightWalk {
     const std::uint32_t all = (1u << rows.count) - 1;
     std::uint32_t edge_on = 0;
     bool is_prepared = false, is_kept = false;
-    for (std::size_t i = first; i < first + count; ++i) {
-      const auto row = static_cast<std::uint32_t>(scratch_.lists[i] >> 32);
-      if constexpr (kCounts) share(row, static_cast<std::uint32_t>(scratch_.lists[i]), true);
-      for (std::uint32_t rest = static_cast<std::uint32_t>(scratch_.lists[i]); rest != 0; rest &= rest - 1) {
+    for (const std::uint64_t entry : list) {
+      const auto row = static_cast<std::uint32_t>(entry >> 32);
+      const std::uint32_t live = static_cast<std::uint32_t>(entry) & here.groups.live[row];
+      if constexpr (kCounts) share(row, live, true);
+      for (std::uint32_t rest = live; rest != 0; rest &= rest - 1) {
         const std::uint32_t lane = first_lane(rest);
         const auto& g = here.groups.rows[row].rows;
         const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
@@ -282,6 +299,7 @@ class LightWalk {
   bool may_cover_;
   LightViewScratch& scratch_;
   std::uint32_t first_group_ = 0;
+  std::uint32_t first_waiting_ = 0, waiting_count_ = 0;
   std::size_t room_ = 0;  ///< for meetings of a triangle and a group
 };
 
