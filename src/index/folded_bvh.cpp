@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace umbrix::detail {
 namespace {
@@ -57,11 +58,12 @@ void fold(const TriangleBvh& bvh, std::uint32_t index, std::vector<Descendant>& 
 
 FoldedBvh::FoldedBvh(const TriangleBvh& bvh) : bvh_(&bvh) {
   if (bvh.empty()) return;
+  nodes_ = LazyArray<FoldedNode>(bvh.node_count(), Fill::nothing);
   std::vector<std::uint32_t> of_bvh = {0};  // by folded node
   std::vector<Descendant> children;
   for (std::size_t i = 0; i < of_bvh.size(); ++i) {
     fold(bvh, of_bvh[i], children);
-    FoldedNode& node = nodes_.emplace_back();
+    FoldedNode& node = nodes_[count_++];
     for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
       const bool is_there = lane < children.size();
       for (std::uint32_t k = 0; k < 3; ++k) {
@@ -76,7 +78,6 @@ FoldedBvh::FoldedBvh(const TriangleBvh& bvh) : bvh_(&bvh) {
       of_bvh.push_back(children[lane].child);
     }
   }
-  nodes_.shrink_to_fit();
 }
 
 }  // namespace umbrix::detail

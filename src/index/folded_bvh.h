@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <cstddef>
 
+#include "core/lazy_array.h"
 #include "index/triangle_bvh.h"
 
 namespace umbrix::detail {
@@ -23,16 +24,17 @@ class FoldedBvh {
   /// `bvh` must outlive it, where it is. Throws std::bad_alloc.
   explicit FoldedBvh(const TriangleBvh& bvh);
 
-  std::uint64_t bytes() const noexcept { return nodes_.size() * sizeof(FoldedNode); }
+  std::uint64_t bytes() const noexcept { return count_ * sizeof(FoldedNode); }
 
   /// Node 0 is the root; there is none if there are no triangles.
-  bool empty() const noexcept { return nodes_.empty(); }
+  bool empty() const noexcept { return count_ == 0; }
   const FoldedNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
   const TriangleRows& rows(std::uint32_t index) const noexcept { return bvh_->rows(index); }
 
  private:
   const TriangleBvh* bvh_ = nullptr;
-  std::vector<FoldedNode> nodes_;
+  LazyArray<FoldedNode> nodes_;  ///< room for as many as the hierarchy has: it does not move as it grows
+  std::size_t count_ = 0;
 };
 
 }  // namespace umbrix::detail

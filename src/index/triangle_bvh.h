@@ -57,6 +57,7 @@ class TriangleBvh {
 
   /// Node 0 is the root; there is none if there are no triangles.
   bool empty() const noexcept { return nodes_.size() == 0; }
+  std::size_t node_count() const noexcept { return nodes_.size(); }
   const BvhNode& node(std::uint32_t index) const noexcept { return nodes_[index]; }
   const TriangleRows& rows(std::uint32_t index) const noexcept { return rows_[index]; }
 

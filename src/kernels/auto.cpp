@@ -90,7 +90,9 @@ struct AutoKernel {
       options.skip = rays.skip ? rays.skip + first : nullptr;
       by(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
     };
-    return ShaftTrace(scene, table(scene)).trace(rays, [&](std::size_t first, std::size_t count) { answer(answer_others, first, count); });
+    return ShaftTrace(scene, table(scene)).trace(rays, [&](std::size_t first, std::size_t count) {
+      answer(answer_others, first, count);
+    });
   }
 
   static void answer_others(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
