@@ -245,12 +245,13 @@ class ShaftTrace {
       scratch.wide.clear();
       for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
         cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
-      for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i]);
       const bool is_good = walk.walk(kMostMet * count);
-      if (is_good)
+      if (is_good) {
+        for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i]);
         packets.trace(alone);
-      else
+      } else {
         for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
+      }
       patience.note(is_good && 4 * scratch.wide.size() < 3 * count);
     }
   }
