@@ -13,6 +13,7 @@
 #include "kernels/group_rays.h"
 #include "kernels/shaft_packets-inl.h"
 #include "kernels/tree_kernel-inl.h"
+#include "kernels/walk_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -54,12 +55,15 @@ class BundleAnswer {
     }
   }
 
-  /// One ray against a row.
-  HWY_INLINE void meet_alone(std::uint32_t lane, const WalkRay& walk_ray, const TriangleRows& rows, float reach) {
+  /// Those of the rays in `lanes` that are open, each by itself.
+  HWY_INLINE void meet_alone(const WalkRays& rays, std::uint32_t lanes, const TriangleRows& rows, float reach) {
     NoCounts none;
-    const std::size_t i = select(lane);
-    if (block_blocks(scene_, filter_, rays_.rays[i], RowTest(walk_ray), walk_ray, rows, reach, none))
-      blocked_ |= 1u << lane;
+    for (std::uint32_t rest = lanes & open(); rest != 0; rest &= rest - 1) {
+      const std::uint32_t lane = first_lane(rest);
+      const std::size_t i = select(lane);
+      const WalkRay ray = rays.ray(lane);
+      if (block_blocks(scene_, filter_, rays_.rays[i], RowTest(ray), ray, rows, reach, none)) blocked_ |= 1u << lane;
+    }
   }
 
   /// Decides what is unsure, and tells which rays are blocked.

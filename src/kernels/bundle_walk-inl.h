@@ -87,14 +87,10 @@ class BundleWalk {
   static std::uint32_t count_ones(std::uint32_t bits) { return static_cast<std::uint32_t>(hwy::PopCount(bits)); }
 
   HWY_INLINE void meet(const BundleView& view, const TriangleRows& rows, std::uint32_t active, float reach) {
-    if (count_ones(active) > kFewForRows) {
+    if (count_ones(active) > kFewForRows)
       answer_.meet(view, rows, 0xFFFF, reach);
-      return;
-    }
-    for (std::uint32_t rest = active; rest != 0; rest &= rest - 1) {
-      const std::uint32_t i = lane_of(rest);
-      answer_.meet_alone(i, walk_rays_.ray(i), rows, reach);
-    }
+    else
+      answer_.meet_alone(walk_rays_, active, rows, reach);
   }
 
   const SceneView& scene_;

@@ -34,7 +34,7 @@ class ShaftPackets {
   ShaftPackets(const SceneView& scene, const GroupRays& rays, const TriangleBvh& bvh, ShaftScratch& scratch)
       : bvh_(bvh), scratch_(scratch), tree_(*scene.tree), rays_(rays.rays), answer_(scene, rays) {}
 
-  /// The rays of shafts that may meet very much had better walk alone.
+  /// The bundles of shafts that may meet very much had better walk by themselves: alone(bundle).
   template <class Alone>
   void trace(Alone&& alone) {
     sort_meetings();
@@ -109,10 +109,7 @@ class ShaftPackets {
       const std::uint32_t lane = first_lane(some);
       if (hwy::PopCount(rays[lane]) > kFewRays) continue;
       rest &= ~(1u << lane);
-      for (std::uint32_t in = rays[lane] & answer_.open(); in != 0; in &= in - 1) {
-        const std::uint32_t ray = first_lane(in);
-        answer_.meet_alone(ray, walk_rays_.ray(ray), rows_of(part, lane), faces_[part].reach(lane));
-      }
+      answer_.meet_alone(walk_rays_, rays[lane], rows_of(part, lane), faces_[part].reach(lane));
     }
     return rest;
   }
@@ -159,9 +156,8 @@ class ShaftTrace {
  public:
   ShaftTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
 
-  /// Answers all rays: those that are not for it by other(first, count), those that go all ways from a point by
-  /// alone(first, count). False, with no answer of use, if there are few, they do not come in bundles, or there is no
-  /// memory.
+  /// Answers all rays, those that are not for it by other(first, count). False, with no answer of use, if there are
+  /// few, they do not come in bundles, or there is no memory.
   template <class Other>
   bool trace(const GroupRays& rays, Other&& other) {
     if (rays.rays.count < kFewestRays || table_.bvh().empty()) return false;
