@@ -9,7 +9,7 @@
 
 namespace umbrix::detail {
 
-/// `each` rays from each of neighbouring points to a box around the light, half as large as `reach` each way.
+/// `each` rays from each of neighbouring points to a box around the light that is `reach` wide on either side.
 inline std::vector<Ray> bundles(std::size_t points, std::size_t each, float spread, std::uint32_t seed,
                                 float reach = 0.1f) {
   std::mt19937 random(seed);

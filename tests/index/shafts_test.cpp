@@ -34,7 +34,7 @@ TEST(Shafts, LightsOfAnySize) {
   }
 }
 
-TEST(Shafts, TinyScenes) {  // in which denormals matter
+TEST(Shafts, TinyScenesAndDenormals) {
   for (const float scale : {1e-3f, 1e-15f, 1e-30f}) {
     SCOPED_TRACE(scale);
     std::vector<Triangle> soup = random_soup(300, 0.2f, 1);
