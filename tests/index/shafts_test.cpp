@@ -57,6 +57,21 @@ TEST(Shafts, TinyScenesAndDenormals) {
   }
 }
 
+TEST(Shafts, IntervalsAroundAHit) {
+  const std::vector<Triangle> soup = random_soup(3000, 0.05f, 9);
+  Scene scene;
+  ASSERT_TRUE(scene.add(view_of(soup)).ok());
+  ASSERT_TRUE(scene.commit().ok());
+  std::vector<Ray> rays = bundles(200, 16, 0.02f, 10, 2);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Hit hit;
+    if (!scene.closest(rays[i], hit)) continue;
+    rays[i].tmin = hit.t * (i % 2 == 0 ? 1 - 1e-6f : 1 + 1e-6f);
+    rays[i].tmax = hit.t * (1 + 3e-6f);
+  }
+  expect_right(scene, rays);
+}
+
 TEST(Shafts, MoreThanOneBatch) {
   const TwoMeshes two;
   const std::vector<Ray> rays = bundles(3000, 16, 0.02f, 6);
