@@ -44,9 +44,8 @@ struct Spread {
     high_v = hn::IfThenElse(use, hn::Max(high_v, v), high_v);
   }
   Rectangle get() const {
-    const RayTag f;
-    return {hn::GetLane(hn::MinOfLanes(f, low_u)), hn::GetLane(hn::MaxOfLanes(f, high_u)),
-            hn::GetLane(hn::MinOfLanes(f, low_v)), hn::GetLane(hn::MaxOfLanes(f, high_v))};
+    const FourLeast least(low_u, hn::Neg(high_u), low_v, hn::Neg(high_v));
+    return {least.of[0], -least.of[1], least.of[2], -least.of[3]};
   }
 };
 
@@ -226,9 +225,9 @@ class LightGroups {
       low_w = hn::IfThenElse(use, hn::Min(low_w, x), low_w);
       high_w = hn::IfThenElse(use, hn::Max(high_w, x), high_w);
     });
-    const float least = hn::GetLane(hn::MinOfLanes(f, low)), most = hn::GetLane(hn::MaxOfLanes(f, high));
-    const float least_w = hn::GetLane(hn::MinOfLanes(f, low_w));
-    group.nearest = hn::GetLane(hn::MaxOfLanes(f, high_w));
+    const FourLeast ends(low, hn::Neg(high), low_w, hn::Neg(high_w));
+    const float least = ends.of[0], most = -ends.of[1], least_w = ends.of[2];
+    group.nearest = -ends.of[3];
     group.farthest = least_w;
     const bool is_tighter = most - least < 0.5f * (group.nearest - least_w);
     group.slope_u = is_tighter ? slope_u : 0;

@@ -36,7 +36,7 @@ class LightRays {
       const RayRun& run =
           reader_.read(begin, static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, rays_.count - begin)));
       if (16 * scratch_.odd.size() > kMostRays + begin) return false;
-      for (std::uint32_t face = 0; face < kViewFaces; ++face) take_face(run, face);
+      for (std::uint32_t faces = run.faces; faces != 0; faces &= faces - 1) take_face(run, first_lane(faces));
       if (begin < next_look || is_sorting_) continue;
       is_sorting_ = groups_.layers() > kMostLayers;
       next_look *= 2;
@@ -109,34 +109,70 @@ class LightRays {
       spread.add(hn::Load(f, run.u + i), hn::Load(f, run.v + i), keep);
       count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
     });
-    if (count == 0) return;
     scratch_.segments.push_back({number, scratch_.ray_count, count});
     const Rectangle whole = spread.get();
     const Parts parts(whole, is_sorting_ ? 1 : count / kPartRays);
-    alignas(64) std::int32_t part_of[kMostRays + kRowLanes];
+    alignas(64) std::uint8_t part_of[kMostRays + kRowLanes];
     for_lanes(0, run.count, [&](std::size_t i, RayMask use) {
       const auto keep = hn::And(hn::RebindMask(n, use), hn::Eq(hn::Load(n, run.face + i), wanted));
       const auto part = parts.find(hn::Load(f, run.u + i), hn::Load(f, run.v + i));
-      hn::Store(hn::IfThenElse(keep, part, hn::Set(n, -1)), n, part_of + i);
+      const hn::Rebind<std::uint8_t, RayTag> bytes;
+      hn::StoreU(hn::DemoteTo(bytes, hn::IfThenElse(keep, part, hn::Set(n, 255))), bytes, part_of + i);
     });
     for (std::uint32_t part = 0; part < parts.count(); ++part) {
       const std::size_t first = scratch_.ray_count;
-      const Rectangle rectangle = take_part(run, part_of, part);
+      const Rectangle rectangle = take_part(run, RunBits(part_of, run.count, static_cast<std::uint8_t>(part)));
       if (scratch_.ray_count != first && !is_sorting_)
         groups_.split(number, first, scratch_.ray_count - first, rectangle, kGroupRays);
     }
   }
 
-  Rectangle take_part(const RayRun& run, const std::int32_t* part_of, std::uint32_t part) {
+  /// Rays of a run that have a number, as bits.
+  class RunBits {
+   public:
+    RunBits(const std::uint8_t* numbers, std::uint32_t count, std::uint8_t wanted) {
+      const hn::CappedTag<std::uint8_t, 64> bytes;
+      for (std::size_t i = 0; i < count; i += hn::Lanes(bytes)) {
+        alignas(8) std::uint8_t some[8] = {};
+        hn::StoreMaskBits(bytes, hn::Eq(hn::LoadU(bytes, numbers + i), hn::Set(bytes, wanted)), some);
+        std::uint64_t word;
+        std::memcpy(&word, some, sizeof word);
+        words_[i / 64] |= word << i % 64;
+      }
+      words_[count / 64] &= (std::uint64_t{1} << count % 64) - 1;
+    }
+
+    /// Calls each(i, lanes) for those i = 0, 16, ... where there are any.
+    template <class Each>
+    HWY_INLINE void for_each(Each&& each) const {
+      const auto lanes = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
+      const hn::CappedTag<std::uint16_t, kRowLanes> rows;
+      std::uint32_t some = 0;
+      alignas(32) std::uint16_t bits[kMostRays / kRowLanes];
+      std::memcpy(bits, words_, sizeof bits);
+      for (std::size_t i = 0; i < kMostRays / kRowLanes; i += hn::Lanes(rows)) {
+        std::uint8_t b[8] = {};
+        hn::StoreMaskBits(rows, hn::Ne(hn::Load(rows, bits + i), hn::Zero(rows)), b);
+        some |= (b[0] | std::uint32_t{b[1]} << 8) << i;
+      }
+      for (; some != 0; some &= some - 1) {
+        const std::uint32_t row = first_lane(some);
+        for (std::uint32_t k = 0; k < kRowLanes; k += lanes)
+          each(kRowLanes * row + k, lane_mask(bits[row] >> k & ((1u << lanes) - 1)));
+      }
+    }
+
+   private:
+    std::uint64_t words_[kMostRays / 64 + 1] = {};
+  };
+
+  Rectangle take_part(const RayRun& run, const RunBits& rays) {
     const RayTag f;
     const RayBitsTag n;
-    const auto wanted = hn::Set(n, static_cast<std::int32_t>(part));
     Spread spread;
     std::size_t at = scratch_.ray_count;
-    for (std::size_t i = 0; i < run.count; i += hn::Lanes(f)) {
-      const auto whole = hn::Eq(hn::Load(n, part_of + i), wanted);
-      const auto keep = hn::RebindMask(f, whole);
-      if (hn::AllFalse(f, keep)) continue;
+    rays.for_each([&](std::size_t i, RayMask keep) {
+      const auto whole = hn::RebindMask(n, keep);
       const auto u = hn::Load(f, run.u + i), v = hn::Load(f, run.v + i), w = hn::Load(f, run.w + i);
       spread.add(u, v, keep);
       hn::StoreU(hn::Compress(u, keep), f, scratch_.u.data() + at);
@@ -144,7 +180,7 @@ class LightRays {
       hn::StoreU(hn::Compress(w, keep), f, scratch_.w.data() + at);
       hn::StoreU(hn::Compress(hn::Load(n, run.name + i), whole), n, scratch_.name.data() + at);
       at += hn::CountTrue(f, keep);
-    }
+    });
     scratch_.ray_count = at;
     return spread.get();
   }

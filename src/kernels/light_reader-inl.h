@@ -9,6 +9,7 @@
 #define UMBRIX_KERNELS_LIGHT_READER_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -33,6 +34,7 @@ struct RayRun {
   alignas(64) std::int32_t face[kMostRays + kRowLanes];
   alignas(64) std::int32_t name[kMostRays + kRowLanes];
   std::uint32_t count = 0;
+  std::uint32_t faces = 0;  ///< a bit for each face that has some
 };
 
 /// The end of the shortest of some rays: the nearer the start, the less its direction's rounding moves the end.
@@ -76,9 +78,15 @@ class LightReader {
   /// At most kMostRays.
   const RayRun& read(std::size_t begin, std::uint32_t count) {
     const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
-    run_.count = 0;
-    for (std::uint32_t i = 0; i < count; i += step)
-      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i));
+    run_.count = run_.faces = 0;
+    auto faces = hn::Zero(RayBitsTag());
+    for (std::uint32_t i = 0; i < count; i += step) {
+      prefetch(begin + i + kMostRays, step);
+      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i), faces);
+    }
+    alignas(64) std::int32_t each[kRowLanes];
+    hn::Store(faces, RayBitsTag(), each);
+    for (std::uint32_t lane = 0; lane < step; ++lane) run_.faces |= static_cast<std::uint32_t>(each[lane]);
     return run_;
   }
 
@@ -89,8 +97,16 @@ class LightReader {
   }
 
  private:
-  HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here) {
+  /// Rays of the next run, while this one is read and brought into groups.
+  HWY_INLINE void prefetch(std::size_t first, std::uint32_t count) const {
+    constexpr std::uint32_t kOfLine = 2;
+    if (first + count > rays_.count) return;
+    for (std::uint32_t i = 0; i < count; i += kOfLine) hwy::Prefetch(&rays_[first + i]);
+  }
+
+  HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here, hn::Vec<RayBitsTag>& faces) {
     const RayTag f;
+    const RayBitsTag n;
     SeenStarts seen;
     const auto good = see(rays, seen);
     const auto present = hn::FirstN(f, here);
@@ -105,6 +121,7 @@ class LightReader {
     raise(start_errors_, seen.start_off);
     raise(end_errors_, seen.end_off);
     raise(most_errors_, seen.most_off);
+    faces = hn::Or(faces, hn::IfThenElseZero(hn::RebindMask(n, keep), hn::Shl(hn::Set(n, 1), seen.face)));
     add(seen, keep, first);
   }
 

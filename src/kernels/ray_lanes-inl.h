@@ -57,6 +57,32 @@ HWY_INLINE void for_lanes(std::size_t first, std::size_t count, Each&& each) {
   for (std::size_t i = 0; i < count; i += hn::Lanes(f)) each(first + i, hn::FirstN(f, count - i));
 }
 
+/// The least lane of each of four.
+struct FourLeast {
+  float of[4];
+
+  HWY_INLINE FourLeast(RayVec a, RayVec b, RayVec c, RayVec d) {
+#if HWY_TARGET == HWY_SCALAR
+    const RayVec each[4] = {a, b, c, d};
+    for (std::size_t k = 0; k < 4; ++k) of[k] = hn::GetLane(each[k]);
+#else
+    const RayTag f;
+    const hn::Repartition<std::uint64_t, RayTag> pairs;
+    const auto halves = [&](RayVec x, RayVec y) {
+      return hn::BitCast(pairs, hn::Min(hn::InterleaveLower(f, x, y), hn::InterleaveUpper(f, x, y)));
+    };
+    const auto ab = halves(a, b), cd = halves(c, d);
+    auto blocks =
+        hn::Min(hn::BitCast(f, hn::InterleaveLower(pairs, ab, cd)), hn::BitCast(f, hn::InterleaveUpper(pairs, ab, cd)));
+    if constexpr (HWY_LANES(float) > 8) blocks = hn::Min(blocks, hn::ReverseBlocks(f, blocks));
+    if constexpr (HWY_LANES(float) > 4) blocks = hn::Min(blocks, hn::SwapAdjacentBlocks(blocks));
+    alignas(64) float lanes[kRowLanes];
+    hn::Store(blocks, f, lanes);
+    std::memcpy(of, lanes, sizeof of);
+#endif
+  }
+};
+
 /// The fields of rays, a vector each.
 struct RayFields {
   RayVec origin[3], direction[3], tmin, tmax;
