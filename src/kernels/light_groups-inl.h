@@ -190,6 +190,7 @@ class LightGroups {
 
   void add_group(std::uint32_t face, std::size_t first, std::size_t count, const Rectangle& r) {
     RayGroup group;
+    group.packets = RayGroup::kNone;
     group.u = 0.5f * (r.low_u + r.high_u);
     group.v = 0.5f * (r.low_v + r.high_v);
     group.half_u = std::max(r.high_u - group.u, group.u - r.low_u);

@@ -26,12 +26,18 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Some rays of a group side by side.
-struct Packet {
+/// A packet's rays, and what is found of them.
+struct PacketLanes {
   RayVec u, v, w;
-  RayMask blocked, unsure;
-  std::uint32_t first, count;
-  ViewBox box;
+  RayMask blocked, open;  ///< rays may be both, and are blocked then
+
+  HWY_INLINE PacketLanes(const LightViewScratch& rays, const LightPacket& p) : blocked(lane_mask(p.blocked)) {
+    const RayTag f;
+    u = hn::LoadU(f, rays.u.data() + p.first);
+    v = hn::LoadU(f, rays.v.data() + p.first);
+    w = hn::LoadU(f, rays.w.data() + p.first);
+    open = hn::MaskFromVec(hn::Zero(f));
+  }
 };
 
 /// One triangle, in all lanes.
@@ -48,7 +54,7 @@ class TriangleTest {
   }
 
   /// Lanes that surely hit, and those that may.
-  HWY_INLINE void operator()(const Packet& p, RayMask& hit, RayMask& open) const {
+  HWY_INLINE void operator()(const PacketLanes& p, RayMask& hit, RayMask& open) const {
     const auto inner = hn::Min(edge(0, p), hn::Min(edge(1, p), edge(2, p)));
     const auto before = hn::Sub(linear(plane_, p), p.w);
     hit = hn::And(hn::Gt(inner, edge_error_), hn::Gt(before, plane_error_));
@@ -56,7 +62,7 @@ class TriangleTest {
   }
 
   /// For a plane that the light is too near to: lanes that may hit, as they pass no two edges on different sides.
-  RayMask edge_on(const Packet& p) const {
+  RayMask edge_on(const PacketLanes& p) const {
     const auto a = edge(0, p), b = edge(1, p), c = edge(2, p);
     const auto apart = hn::And(hn::Gt(hn::Max(a, hn::Max(b, c)), edge_error_),
                                hn::Lt(hn::Min(a, hn::Min(b, c)), hn::Neg(edge_error_)));
@@ -64,19 +70,21 @@ class TriangleTest {
   }
 
  private:
-  static HWY_INLINE RayVec linear(const RayVec (&c)[3], const Packet& p) {
+  static HWY_INLINE RayVec linear(const RayVec (&c)[3], const PacketLanes& p) {
     return hn::MulAdd(c[0], p.u, hn::MulAdd(c[1], p.v, c[2]));
   }
-  HWY_INLINE RayVec edge(std::uint32_t k, const Packet& p) const { return linear(edge_[k], p); }
+  HWY_INLINE RayVec edge(std::uint32_t k, const PacketLanes& p) const { return linear(edge_[k], p); }
 
   RayVec edge_[3][3], plane_[3];
   RayVec edge_error_, plane_error_;
 };
 
-/// Answers the rays of all groups from what they may meet.
+/// Answers the rays of all groups from what the walk finds that they may meet.
 template <class Counts>
 class LightPackets {
  public:
+  static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
+
   /// `each` takes the work of each ray, if it is counted.
   LightPackets(const SceneView& scene, const GroupRays& rays, const ViewErrors& errors, LightViewScratch& scratch,
                std::vector<Counts>& each)
@@ -86,117 +94,151 @@ class LightPackets {
         scratch_(scratch),
         each_(each),
         filter_(scene, rays.mask),
-        plain_(!rays.skip && filter_.passes_all()) {}
+        plain_(!rays.skip && filter_.passes_all()) {
+    scratch_.packets.clear();
+    scratch_.open.clear();
+  }
 
-  void trace() {
-    sort_meetings();
+  /// No triangle is skipped or seen through.
+  bool is_plain() const { return plain_; }
+
+  /// All of the group's rays are blocked.
+  void cover(const RayGroup& group) {
+    for_packets(group, [](LightPacket& p, std::uint32_t) { p.blocked = all_lanes(); });
+  }
+
+  /// For those that may meet something soon.
+  HWY_INLINE void prefetch(const RayGroup& group) const {
+    for (std::uint32_t k = group.first; k < group.first + group.count; k += kRowLanes) {
+      hwy::Prefetch(scratch_.u.data() + k);
+      hwy::Prefetch(scratch_.v.data() + k);
+      hwy::Prefetch(scratch_.w.data() + k);
+    }
+  }
+
+  /// Triangles that may block some ray of the group. True if no ray is left.
+  bool meet(RayGroup& group, const LightTriangles& triangles, std::uint32_t met) {
+    if (group.packets == RayGroup::kNone) load(group);
+    bool is_done = true;
+    for_packets(group, [&](LightPacket& p, std::uint32_t number) {
+      if (p.blocked == all_lanes()) return;
+      const std::uint32_t wanted = met & meeting<Starts::in_box>(triangles.bounds, p.box);
+      if (plain_ && (met & triangles.edge_on) == 0)
+        test(group, triangles, wanted, p, number);
+      else
+        decide(group, triangles, wanted, p);
+      is_done = is_done && p.blocked == all_lanes();
+    });
+    return is_done;
+  }
+
+  /// Writes all answers.
+  void finish() {
+    for (const OpenRays& open : scratch_.open) {
+      LightPacket& p = scratch_.packets[open.packet];
+      p.blocked |= exactly(p, open.lanes & ~p.blocked, open.id);
+    }
     std::uint32_t number = 0;
-    for (std::uint32_t face = 0; face < kViewFaces; ++face) {
-      auto& groups = scratch_.faces[face];
-      for (std::uint32_t i = 0; i < groups.groups.size(); ++i, ++number) {
-        const RayGroup& group = groups.groups[i];
+    for (const auto& face : scratch_.faces) {
+      for (std::uint32_t i = 0; i < face.groups.size(); ++i, ++number) {
+        const RayGroup& group = face.groups[i];
         if constexpr (kCounts) share(group, scratch_.shared[number]);
-        if ((groups.live[i / kRowLanes] >> i % kRowLanes & 1) == 0) {
+        if ((face.live[i / kRowLanes] >> i % kRowLanes & 1) == 0) {
           for (std::uint32_t k = group.first; k < group.first + group.count; ++k) rays_.out[name(k)] = 1;
-        } else if (scratch_.counts[number] != scratch_.counts[number + 1]) {
-          trace_group(group, scratch_.counts[number], scratch_.counts[number + 1]);
+        } else {
+          deliver(group);
         }
       }
     }
   }
 
  private:
-  static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
-#if HWY_TARGET == HWY_SCALAR
-  static constexpr std::uint32_t kMostPackets = kGroupRays;
-#else
-  static constexpr std::uint32_t kMostPackets = kGroupRays / 4;
-#endif
+  static std::uint32_t all_lanes() { return static_cast<std::uint32_t>((std::uint64_t{1} << hn::Lanes(RayTag())) - 1); }
 
-  void sort_meetings() {
-    auto& counts = scratch_.counts;
-    counts.assign(scratch_.group_count() + 2, 0);
-    for (const Meeting& m : scratch_.meetings) ++counts[m.group + 2];
-    for (std::size_t i = 2; i < counts.size(); ++i) counts[i] += counts[i - 1];
-    scratch_.sorted.resize(scratch_.meetings.size());
-    for (const Meeting& m : scratch_.meetings) scratch_.sorted[counts[m.group + 1]++] = m;
+  template <class Each>
+  HWY_INLINE void for_packets(const RayGroup& group, Each&& each) {
+    if (group.packets == RayGroup::kNone) return;
+    const auto lanes = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
+    const std::uint32_t last = group.packets + (group.count + lanes - 1) / lanes;
+    for (std::uint32_t k = group.packets; k < last; ++k) each(scratch_.packets[k], k);
   }
 
-  void trace_group(const RayGroup& group, std::uint32_t first, std::uint32_t last) {
-    Packet packets[kMostPackets];
-    const std::uint32_t count = load(group, packets);
-    for (std::uint32_t i = first; i < last; ++i) {
-      const Meeting& m = scratch_.sorted[i];
-      const LightTriangles& triangles = scratch_.triangles[m.triangles];
-      if (i + 1 < last) prefetch(scratch_.triangles[scratch_.sorted[i + 1].triangles]);
-      if (!plain_ || m.edge_on != 0) {
-        for (std::uint32_t k = 0; k < count; ++k) decide(group, m, packets[k]);
-        continue;
-      }
-      std::uint32_t left = 0;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        if (hn::AllTrue(RayTag(), packets[k].blocked)) continue;
-        ++left;
-        test(triangles, m.lanes & meeting<Starts::in_box>(triangles.bounds, packets[k].box), group, packets[k]);
-      }
-      if (left == 0) break;
-    }
-    bool is_open = false;
-    for (std::uint32_t k = 0; k < count; ++k) is_open = is_open || is_unsure(packets[k]);
-    if (HWY_UNLIKELY(is_open)) {
-      for (std::uint32_t k = 0; k < count; ++k)
-        for (std::uint32_t i = first; i < last && is_unsure(packets[k]); ++i)
-          if (scratch_.sorted[i].edge_on == 0) decide(group, scratch_.sorted[i], packets[k]);
-    }
-    for (std::uint32_t k = 0; k < count; ++k) {
-      for (std::uint32_t rest = ray_bits(packets[k].blocked) & present(packets[k]); rest != 0; rest &= rest - 1)
-        rays_.out[name(packets[k].first + first_lane(rest))] = 1;
-    }
-  }
-
-  /// Lanes without a ray are blocked from the start.
-  std::uint32_t load(const RayGroup& group, Packet* packets) const {
-    const RayTag f;
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < group.count; i += step) {
-      Packet& p = packets[count++];
-      p.first = group.first + i;
-      p.count = std::min(step, group.count - i);
-      p.u = hn::LoadU(f, scratch_.u.data() + p.first);
-      p.v = hn::LoadU(f, scratch_.v.data() + p.first);
-      p.w = hn::LoadU(f, scratch_.w.data() + p.first);
-      p.blocked = hn::Not(hn::FirstN(f, p.count));
-      p.unsure = hn::MaskFromVec(hn::Zero(f));
+  void load(RayGroup& group) {
+    group.packets = static_cast<std::uint32_t>(scratch_.packets.size());
+    for_lanes(group.first, group.count, [&](std::size_t i, RayMask use) {
+      LightPacket p;
+      p.first = static_cast<std::uint32_t>(i);
+      p.blocked = all_lanes() & ~ray_bits(use);
       bound(p);
-    }
-    return count;
+      scratch_.packets.push_back(p);
+    });
   }
 
-  HWY_INLINE void test(const LightTriangles& triangles, std::uint32_t lanes, const RayGroup& group, Packet& p) {
-    for (; lanes != 0; lanes &= lanes - 1) {
-      if constexpr (kCounts) count_tests(p);
-      RayMask hit, open;
-      TriangleTest(triangles, first_lane(lanes), group)(p, hit, open);
-      p.blocked = hn::Or(p.blocked, hit);
-      p.unsure = hn::Or(p.unsure, hn::AndNot(hit, open));
-    }
-  }
-
-  void bound(Packet& p) const {
+  void bound(LightPacket& p) const {
     const RayTag f;
-    const auto use = hn::FirstN(f, p.count);
+    const PacketLanes x(scratch_, p);
     const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    const auto least = [&](RayVec x) { return hn::GetLane(hn::MinOfLanes(f, hn::IfThenElse(use, x, infinity))); };
-    const auto most = [&](RayVec x) {
-      return hn::GetLane(hn::MaxOfLanes(f, hn::IfThenElse(use, x, hn::Neg(infinity))));
-    };
-    p.box = {least(p.u) - margin_, most(p.u) + margin_, least(p.v) - margin_, most(p.v) + margin_,
-             least(p.w) * (1 - 4 * margin_)};
+    const auto present = [&](RayVec value) { return hn::IfThenElse(x.blocked, infinity, value); };
+    const FourLeast least(present(x.u), present(hn::Neg(x.u)), present(x.v), present(hn::Neg(x.v)));
+    const float farthest = hn::GetLane(hn::MinOfLanes(f, present(x.w)));
+    p.box = {least.of[0] - margin_, margin_ - least.of[1], least.of[2] - margin_, margin_ - least.of[3],
+             farthest * (1 - 4 * margin_)};
   }
 
-  static void prefetch(const LightTriangles& t) {
-    for (std::size_t line = 0; line < sizeof t; line += 64) hwy::Prefetch(reinterpret_cast<const char*>(&t) + line);
+  HWY_INLINE void test(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted, LightPacket& p,
+                       std::uint32_t number) {
+    if (wanted == 0) return;
+    PacketLanes x(scratch_, p);
+    for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+      if constexpr (kCounts) count_tests(p, x.blocked);
+      RayMask hit, open;
+      TriangleTest(triangles, first_lane(rest), group)(x, hit, open);
+      x.blocked = hn::Or(x.blocked, hit);
+      x.open = hn::Or(x.open, open);
+    }
+    p.blocked = ray_bits(x.blocked);
+    if (HWY_UNLIKELY(!hn::AllFalse(RayTag(), hn::AndNot(x.blocked, x.open))))
+      note_open(group, triangles, wanted, number, x);
+  }
+
+  HWY_NOINLINE void note_open(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
+                              std::uint32_t number, const PacketLanes& x) {
+    for (; wanted != 0; wanted &= wanted - 1) {
+      const std::uint32_t lane = first_lane(wanted);
+      RayMask hit, open;
+      TriangleTest(triangles, lane, group)(x, hit, open);
+      const std::uint32_t rays = ray_bits(hn::AndNot(x.blocked, open));
+      if (rays != 0) scratch_.open.push_back({number, rays, triangles.id[lane]});
+    }
+  }
+
+  /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
+  HWY_NOINLINE void decide(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
+                           LightPacket& p) {
+    PacketLanes x(scratch_, p);
+    for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
+      if constexpr (kCounts) count_tests(p, x.blocked);
+      const std::uint32_t lane = first_lane(rest), id = triangles.id[lane];
+      const TriangleTest test(triangles, lane, group);
+      RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
+      if ((triangles.edge_on >> lane & 1) != 0)
+        open = test.edge_on(x);
+      else
+        test(x, hit, open);
+      const std::uint32_t hits = ray_bits(hit) & ~p.blocked;
+      const std::uint32_t sure = plain_ ? hits : admitted(p, hits, id);
+      p.blocked |= sure | exactly(p, ray_bits(open) & ~p.blocked & ~hits, id);
+      x.blocked = lane_mask(p.blocked);
+    }
+  }
+
+  void deliver(const RayGroup& group) {
+    for_packets(group, [&](const LightPacket& p, std::uint32_t) {
+      const std::uint32_t count = group.first + group.count - p.first;
+      std::uint32_t rest = p.blocked;
+      if (count < kRowLanes) rest &= (1u << count) - 1;
+      for (; rest != 0; rest &= rest - 1) rays_.out[name(p.first + first_lane(rest))] = 1;
+    });
   }
 
   /// Equal parts of the walk, the first rays taking the rest.
@@ -208,41 +250,14 @@ class LightPackets {
     }
   }
 
-  void count_tests(const Packet& p) {
-    for (std::uint32_t rest = ~ray_bits(p.blocked) & present(p); rest != 0; rest &= rest - 1)
+  void count_tests(const LightPacket& p, RayMask blocked) {
+    for (std::uint32_t rest = all_lanes() & ~ray_bits(blocked); rest != 0; rest &= rest - 1)
       each_[name(p.first + first_lane(rest))].primitives(1);
   }
 
-  static std::uint32_t present(const Packet& p) {
-    return static_cast<std::uint32_t>((std::uint64_t{1} << p.count) - 1);
-  }
   std::size_t name(std::size_t place) const { return static_cast<std::size_t>(scratch_.name[place]); }
 
-  /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
-  HWY_NOINLINE void decide(const RayGroup& group, const Meeting& m, Packet& p) {
-    const LightTriangles& triangles = scratch_.triangles[m.triangles];
-    const std::uint32_t lanes = m.lanes | m.edge_on;
-    for (std::uint32_t rest = lanes & meeting<Starts::in_box>(triangles.bounds, p.box); rest != 0; rest &= rest - 1) {
-      if constexpr (kCounts) {
-        if (!plain_ || m.edge_on != 0) count_tests(p);  // others were counted before
-      }
-      const std::uint32_t lane = first_lane(rest);
-      const TriangleTest test(triangles, lane, group);
-      RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
-      if ((m.edge_on >> lane & 1) != 0)
-        open = test.edge_on(p);
-      else
-        test(p, hit, open);
-      const std::uint32_t left = ~ray_bits(p.blocked), hits = ray_bits(hit) & left;
-      std::uint32_t blocked = plain_ ? hits : admitted(p, hits, triangles.id[lane]);
-      blocked |= exactly(p, ray_bits(open) & left & ~hits, triangles.id[lane]);
-      p.blocked = hn::Or(p.blocked, lane_mask(blocked));
-    }
-  }
-
-  static bool is_unsure(const Packet& p) { return !hn::AllFalse(RayTag(), hn::AndNot(p.blocked, p.unsure)); }
-
-  std::uint32_t exactly(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
+  std::uint32_t exactly(const LightPacket& p, std::uint32_t lanes, std::uint32_t id) {
     NoCounts none;
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
@@ -258,7 +273,7 @@ class LightPackets {
     return result;
   }
 
-  std::uint32_t admitted(const Packet& p, std::uint32_t lanes, std::uint32_t id) {
+  std::uint32_t admitted(const LightPacket& p, std::uint32_t lanes, std::uint32_t id) {
     std::uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::size_t i = name(p.first + first_lane(lanes));

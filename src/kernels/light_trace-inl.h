@@ -66,15 +66,17 @@ class LightTrace {
   bool trace(const GroupRays& rays, LightViewScratch& scratch) {
     LightRays light_rays(rays.rays, power_of_two(scene_.tree->scale_exponent), scratch);
     if (!light_rays.read()) return false;
-    const bool may_cover = !rays.skip && Filter(scene_, rays.mask).passes_all();
+    std::vector<Counts> each;
     const auto walk = [&] {
-      return LightWalk<kCounts>(table_.bvh(), light_rays.light(), light_rays.errors(), may_cover, scratch).walk();
+      each.assign(kCounts ? rays.rays.count : 0, {});
+      LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);
+      if (!LightWalk(table_.bvh(), light_rays.light(), light_rays.errors(), packets, scratch).walk()) return false;
+      std::memset(rays.out, 0, rays.rays.count);
+      packets.finish();
+      return true;
     };
     if (!walk() && !(rays.rays.count >= kSortedRays && light_rays.sort() && walk())) return false;
 
-    std::vector<Counts> each(kCounts ? rays.rays.count : 0);
-    std::memset(rays.out, 0, rays.rays.count);
-    LightPackets<Counts>(scene_, rays, light_rays.errors(), scratch, each).trace();
     trace_odd(rays, scratch, each);
     deliver(rays, each);
     return true;

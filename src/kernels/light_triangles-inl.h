@@ -19,7 +19,6 @@
 
 #include <hwy/highway.h>
 
-#include <cstring>
 #include <limits>
 
 #include "kernels/light_view.h"
@@ -104,8 +103,7 @@ class TriangleLanes {
     }
   }
 
-  /// Returns the lanes of which the light's side is not known.
-  std::uint32_t prepare(LightTriangles& out) const {
+  void prepare(LightTriangles& out) const {
     const RayTag f;
     std::uint32_t edge_on = 0;
     constexpr float e = 0x1p-24f;
@@ -159,8 +157,8 @@ class TriangleLanes {
       hn::Store(hn::Mul(ratio, set(24 * e + 1.8f * errors_.start)), f, out.plane_error[0] + i);
       hn::Store(hn::MulAdd(ratio, hn::Mul(set(14 * e), nearest), set(8 * e)), f, out.plane_error[1] + i);
     }
-    std::memcpy(out.id, rows_.id, sizeof out.id);
-    return edge_on;
+    out.id = rows_.id;
+    out.edge_on = edge_on;
   }
 
  private:

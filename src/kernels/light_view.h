@@ -47,11 +47,14 @@ inline constexpr std::uint32_t kGroupRays = 64;
 
 /// Rays of one face whose starts are near each other as the light sees them.
 struct RayGroup {
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+
   float u, v, half_u, half_v;    ///< the rectangle that they are in
   float slope_u, slope_v, base;  ///< no start is farther than where w is base + slope_u u + slope_v v
   float nearest, farthest;       ///< the largest and the smallest w
   float reach;                   ///< the largest depth
   std::uint32_t first, count;    ///< in the order of groups
+  std::uint32_t packets;         ///< the first of them, or kNone before a triangle comes near
 };
 
 /// Rectangles and depths side by side.
@@ -73,15 +76,20 @@ struct alignas(64) LightTriangles {
   float plane[3][kRowLanes];        ///< w of the triangle's plane
   float edge_error[2][kRowLanes];   ///< of an edge's value: [0] + [1] / w
   float plane_error[2][kRowLanes];  ///< of the plane's value less w: [0] + [1] w
-  std::uint32_t id[kRowLanes];
+  const std::uint32_t* id;
+  std::uint32_t edge_on;  ///< the light is too near to their planes: no side is known of edges, and there is no plane
 };
 
-/// Lanes of LightTriangles that a group's rays may meet.
-struct Meeting {
-  std::uint32_t group;
-  std::uint32_t triangles;
-  std::uint16_t lanes;
-  std::uint16_t edge_on;  ///< the light is too near to their planes: no side is known of edges, and there is no plane
+/// Rays of a group side by side, as many as there are lanes.
+struct LightPacket {
+  ViewBox box;
+  std::uint32_t first;    ///< in the order of groups
+  std::uint32_t blocked;  ///< lanes, with those that have no ray
+};
+
+/// Rays of a packet that may be blocked by a triangle: the exact test will tell, if nothing else blocks them.
+struct OpenRays {
+  std::uint32_t packet, lanes, id;
 };
 
 /// Memory of one call, used again by the next.
@@ -134,9 +142,8 @@ struct LightViewScratch {
   };
   static constexpr std::uint32_t kWaitingLeaves = 8;
   WaitingLeaf waiting[kWaitingLeaves];
-  ChunkedArray<LightTriangles> triangles;
-  std::uint32_t triangle_count = 0;
-  std::vector<Meeting> meetings, sorted;
+  std::vector<LightPacket> packets;
+  std::vector<OpenRays> open;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
   std::vector<std::uint32_t> odd;  ///< rays that do not end at the light, or are nothing for floats
   ShaftScratch shafts;             ///< of calls that are answered by those instead
@@ -158,8 +165,7 @@ struct LightViewScratch {
   }
   std::uint64_t bytes() const noexcept {
     const std::uint64_t rays = columns.size() * sizeof(RayColumns) + records.capacity() * sizeof(Record);
-    return rays + shafts.bytes() + triangles.capacity() * sizeof(LightTriangles) +
-           2 * meetings.capacity() * sizeof(Meeting);
+    return rays + shafts.bytes() + packets.capacity() * sizeof(LightPacket) + open.capacity() * sizeof(OpenRays);
   }
   std::size_t group_count() const noexcept {
     std::size_t count = 0;

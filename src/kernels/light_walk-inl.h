@@ -32,7 +32,7 @@ class GroupTest {
     std::uint32_t blocks;  ///< surely blocks all of them
   };
 
-  Result operator()(const LightTriangles& t, std::uint32_t wanted, std::uint32_t edge_on) const {
+  Result operator()(const LightTriangles& t, std::uint32_t wanted) const {
     const RayTag f;
     Result result{0, 0};
     const auto u = hn::Set(f, group_.u), v = hn::Set(f, group_.v);
@@ -44,7 +44,7 @@ class GroupTest {
     for (std::uint32_t i = 0; i < kRowLanes; i += lanes) {
       const std::uint32_t some = wanted >> i & ((1u << lanes) - 1);
       if (some == 0) continue;
-      const std::uint32_t known = ~(edge_on >> i);
+      const std::uint32_t known = ~(t.edge_on >> i);
       // The plane first: most of what is near a group is the surface that its rays start from.
       const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
       const auto plane_error =
@@ -86,21 +86,18 @@ class GroupTest {
   const RayGroup& group_;
 };
 
-/// Finds what the groups' rays may meet.
-template <bool kCounts>
+/// Finds what the groups' rays may meet, for packets of them.
+template <class Packets>
 class LightWalk {
  public:
-  /// `may_cover`: a triangle in front of a whole group answers all of its rays.
-  LightWalk(const TriangleBvh& bvh, const LightPoint& light, const ViewErrors& errors, bool may_cover,
+  LightWalk(const TriangleBvh& bvh, const LightPoint& light, const ViewErrors& errors, Packets& packets,
             LightViewScratch& scratch)
-      : bvh_(bvh), light_(light), errors_(errors), may_cover_(may_cover), scratch_(scratch) {}
+      : bvh_(bvh), light_(light), errors_(errors), packets_(packets), scratch_(scratch) {}
 
-  /// Fills the scratch's triangles and meetings; false if there are so many that rays had better be walked otherwise.
+  /// False if triangles meet so many groups that rays had better be walked otherwise.
   bool walk() {
     room_ = kMostMet * scratch_.ray_count + 4096;
     if constexpr (kCounts) scratch_.shared.assign(scratch_.group_count(), {});
-    scratch_.triangle_count = 0;
-    scratch_.meetings.clear();
     first_group_ = 0;
     for (std::uint32_t number = 0; number < kViewFaces; ++number) {
       auto& groups = scratch_.faces[number];
@@ -120,12 +117,17 @@ class LightWalk {
   }
 
  private:
+  static constexpr bool kCounts = Packets::kCounts;
   /// So many times a triangle may meet a group for each ray.
   static constexpr std::size_t kMostMet = 8;
 
   struct Here {
     Face face;
     LightViewScratch::FaceGroups& groups;
+  };
+  /// Triangles of a leaf that a group's rays may meet.
+  struct Met {
+    std::uint32_t group, triangles;
   };
 
   /// Lays groups side by side in the order in which they came, with the margins that all rays have together.
@@ -247,12 +249,10 @@ class LightWalk {
 
   void visit_rows(Here& here, const TriangleRows& rows, const std::vector<std::uint64_t>& list) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
-    scratch_.triangles.grow(scratch_.triangle_count + 1);
-    LightTriangles& triangles = scratch_.triangles[scratch_.triangle_count];
+    LightTriangles triangles;
     lanes.bound(triangles.bounds);
     const std::uint32_t all = (1u << rows.count) - 1;
-    std::uint32_t edge_on = 0;
-    bool is_prepared = false, is_kept = false;
+    bool is_prepared = false;
     for (const std::uint64_t entry : list) {
       const auto row = static_cast<std::uint32_t>(entry >> 32);
       const std::uint32_t live = static_cast<std::uint32_t>(entry) & here.groups.live[row];
@@ -265,24 +265,28 @@ class LightWalk {
         const std::uint32_t near = all & meeting<Starts::in_box>(triangles.bounds, box);
         if (near == 0) continue;
         if (!is_prepared) {
-          edge_on = lanes.prepare(triangles);
+          lanes.prepare(triangles);
           is_prepared = true;
         }
-        const std::uint32_t group = row * kRowLanes + lane;
-        const GroupTest::Result result = GroupTest(here.groups.groups[group])(triangles, near, edge_on);
+        const std::uint32_t number = row * kRowLanes + lane;
+        const RayGroup& group = here.groups.groups[number];
+        const GroupTest::Result result = GroupTest(group)(triangles, near);
         if (result.met == 0) continue;
-        if (result.blocks != 0 && may_cover_) {
+        if (result.blocks != 0 && packets_.is_plain()) {
+          packets_.cover(group);
           here.groups.live[row] &= ~(1u << lane);
           continue;
         }
-        is_kept = true;
-        scratch_.meetings.push_back({first_group_ + group, scratch_.triangle_count,
-                                     static_cast<std::uint16_t>(result.met & ~edge_on),
-                                     static_cast<std::uint16_t>(result.met & edge_on)});
+        packets_.prefetch(group);
+        met_.push_back({number, result.met});
         room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
       }
     }
-    if (is_kept) ++scratch_.triangle_count;
+    for (const Met& m : met_) {
+      if (packets_.meet(here.groups.groups[m.group], triangles, m.triangles))
+        here.groups.live[m.group / kRowLanes] &= ~(1u << m.group % kRowLanes);
+    }
+    met_.clear();
   }
 
   void share(std::uint32_t row, std::uint32_t lanes, bool is_leaf) {
@@ -296,8 +300,9 @@ class LightWalk {
   const TriangleBvh& bvh_;
   const LightPoint& light_;
   const ViewErrors& errors_;
-  bool may_cover_;
+  Packets& packets_;
   LightViewScratch& scratch_;
+  std::vector<Met> met_;  ///< of a leaf
   std::uint32_t first_group_ = 0;
   std::uint32_t first_waiting_ = 0, waiting_count_ = 0;
   std::size_t room_ = 0;  ///< for meetings of a triangle and a group
