@@ -9,7 +9,6 @@
 #define UMBRIX_KERNELS_LIGHT_READER_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -81,7 +80,7 @@ class LightReader {
     run_.count = run_.faces = 0;
     auto faces = hn::Zero(RayBitsTag());
     for (std::uint32_t i = 0; i < count; i += step) {
-      prefetch(begin + i + kMostRays, step);
+      prefetch_rays(rays_, begin + i + kMostRays, step);
       read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i), faces);
     }
     alignas(64) std::int32_t each[kRowLanes];
@@ -97,13 +96,6 @@ class LightReader {
   }
 
  private:
-  /// Rays of the next run, while this one is read and brought into groups.
-  HWY_INLINE void prefetch(std::size_t first, std::uint32_t count) const {
-    constexpr std::uint32_t kOfLine = 2;
-    if (first + count > rays_.count) return;
-    for (std::uint32_t i = 0; i < count; i += kOfLine) hwy::Prefetch(&rays_[first + i]);
-  }
-
   HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here, hn::Vec<RayBitsTag>& faces) {
     const RayTag f;
     const RayBitsTag n;

@@ -8,6 +8,7 @@
 #define UMBRIX_KERNELS_RAY_LANES_INL_H_
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -121,6 +122,13 @@ HWY_INLINE RayFields load_rays(const RaySpan& rays, std::size_t first) {
   r.tmax = hn::ConcatOdd(f, b3, a3);
 #endif
   return r;
+}
+
+/// For rays that are read some time later, if there are any: as they come from memory, processors fetch too few ahead.
+HWY_INLINE void prefetch_rays(const RaySpan& rays, std::size_t first, std::size_t count) {
+  constexpr std::size_t kOfLine = 2;
+  if (first + count > rays.count) return;
+  for (std::size_t i = 0; i < count; i += kOfLine) hwy::Prefetch(&rays[first + i]);
 }
 
 }  // namespace HWY_NAMESPACE

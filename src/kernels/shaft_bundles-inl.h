@@ -30,6 +30,7 @@ class BundleReader {
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(f));
     const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(kRowLanes, rays_.count - first));
     const Ray& ray = rays_[first];
+    prefetch_rays(rays_, first + kAhead, kRowLanes);
     std::uint32_t same = 0, good = 0, begins = 0;
     for (std::uint32_t i = 0; i < most; i += lanes) {
       const RayFields r = load_rays(rays_, first + i);
@@ -69,6 +70,7 @@ class BundleReader {
   }
 
  private:
+  static constexpr std::size_t kAhead = 512;
   /// Within these, what denormals may lose is too small to matter.
   static constexpr float kLeastLength = 0x1p-30f, kMostLength = 0x1p20f;
 
