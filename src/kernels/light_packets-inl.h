@@ -119,10 +119,11 @@ class LightPackets {
   /// Triangles that may block some ray of the group. True if no ray is left.
   bool meet(RayGroup& group, const LightTriangles& triangles, std::uint32_t met) {
     if (group.packets == RayGroup::kNone) load(group);
+    const bool is_one = (met & (met - 1)) == 0;  // it costs as much to test its box
     bool is_done = true;
     for_packets(group, [&](LightPacket& p, std::uint32_t number) {
       if (p.blocked == all_lanes()) return;
-      const std::uint32_t wanted = met & meeting<Starts::in_box>(triangles.bounds, p.box);
+      const std::uint32_t wanted = is_one ? met : met & meeting<Starts::in_box>(triangles.bounds, p.box);
       if (plain_ && (met & triangles.edge_on) == 0)
         test(group, triangles, wanted, p, number);
       else
