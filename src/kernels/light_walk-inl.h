@@ -121,6 +121,9 @@ class LightWalk {
   /// So many times a triangle may meet a group for each ray.
   static constexpr std::size_t kMostMet = 8;
 
+  /// Meets no group.
+  static constexpr ViewBox kNothing{1, -1, 1, -1, -1};
+
   struct Here {
     Face face;
     LightViewScratch::FaceGroups& groups;
@@ -196,9 +199,8 @@ class LightWalk {
     if (lists.size() < top + kBvhWidth * count) lists.resize(2 * (top + kBvhWidth * count));
     std::size_t ends[kBvhWidth];
     ViewBox boxes[kBvhWidth];
-    bool on_side[kBvhWidth];
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
-      on_side[child] = project(node, child, here.face, boxes[child]);
+      if (!project(node, child, here.face, boxes[child])) boxes[child] = kNothing;
       ends[child] = top + child * count;
     }
     for (std::size_t i = first; i < first + count; ++i) {
@@ -207,9 +209,9 @@ class LightWalk {
       if (lanes == 0) continue;
       if constexpr (kCounts) share(row, lanes, false);
       for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
-        if (!on_side[child]) continue;
         const std::uint32_t met = lanes & meeting<Starts::in_rows>(here.groups.rows[row], boxes[child]);
-        if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
+        lists[ends[child]] = static_cast<std::uint64_t>(row) << 32 | met;
+        ends[child] += met != 0 ? 1 : 0;  // no branch, as it would not be foreseen
       }
     }
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
