@@ -53,7 +53,7 @@ class GroupTest {
       const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
       const auto slack = hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error));
       const std::uint32_t open = some & ~(ray_bits(hn::Lt(hn::Add(before, slack), hn::Zero(f))) & known);
-      if (open == 0) continue;
+
 
       const auto error =
           hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
@@ -254,7 +254,8 @@ class LightWalk {
     LightTriangles triangles;
     lanes.bound(triangles.bounds);
     const std::uint32_t all = (1u << rows.count) - 1;
-    bool is_prepared = false;
+    if (met_.size() < kRowLanes * list.size()) met_.resize(kRowLanes * list.size());
+    std::size_t near_count = 0;
     for (const std::uint64_t entry : list) {
       const auto row = static_cast<std::uint32_t>(entry >> 32);
       const std::uint32_t live = static_cast<std::uint32_t>(entry) & here.groups.live[row];
@@ -265,30 +266,32 @@ class LightWalk {
         const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
                           g[ViewRows::high_v][lane], g[ViewRows::depth][lane]};
         const std::uint32_t near = all & meeting<Starts::in_box>(triangles.bounds, box);
-        if (near == 0) continue;
-        if (!is_prepared) {
-          lanes.prepare(triangles);
-          is_prepared = true;
-        }
-        const std::uint32_t number = row * kRowLanes + lane;
-        const RayGroup& group = here.groups.groups[number];
-        const GroupTest::Result result = GroupTest(group)(triangles, near);
-        if (result.met == 0) continue;
-        if (result.blocks != 0 && packets_.is_plain()) {
-          packets_.cover(group);
-          here.groups.live[row] &= ~(1u << lane);
-          continue;
-        }
-        packets_.prefetch(group);
-        met_.push_back({number, result.met});
-        room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
+        met_[near_count] = {row * kRowLanes + lane, near};
+        near_count += near != 0 ? 1 : 0;
       }
     }
-    for (const Met& m : met_) {
+    if (near_count == 0) return;
+    lanes.prepare(triangles);
+    std::size_t met_count = 0;
+    for (std::size_t i = 0; i < near_count; ++i) {
+      const Met near = met_[i];
+      const RayGroup& group = here.groups.groups[near.group];
+      const GroupTest::Result result = GroupTest(group)(triangles, near.triangles);
+      if (HWY_UNLIKELY(result.blocks != 0) && packets_.is_plain()) {
+        packets_.cover(group);
+        here.groups.live[near.group / kRowLanes] &= ~(1u << near.group % kRowLanes);
+        continue;
+      }
+      if (result.met != 0) packets_.prefetch(group);
+      met_[met_count] = {near.group, result.met};
+      met_count += result.met != 0 ? 1 : 0;
+      room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
+    }
+    for (std::size_t i = 0; i < met_count; ++i) {
+      const Met m = met_[i];
       if (packets_.meet(here.groups.groups[m.group], triangles, m.triangles))
         here.groups.live[m.group / kRowLanes] &= ~(1u << m.group % kRowLanes);
     }
-    met_.clear();
   }
 
   void share(std::uint32_t row, std::uint32_t lanes, bool is_leaf) {
