@@ -116,21 +116,29 @@ class LightPackets {
     }
   }
 
-  /// Triangles that may block some ray of the group. True if no ray is left.
-  bool meet(RayGroup& group, const LightTriangles& triangles, std::uint32_t met) {
+  /// Appends the group's packets that triangles come near; `out` has `count` of use.
+  HWY_INLINE void choose(RayGroup& group, const MetGroup& met, const LightTriangles& triangles,
+                         std::vector<MetPacket>& out, std::size_t& count) {
     if (group.packets == RayGroup::kNone) load(group);
-    const bool is_one = (met & (met - 1)) == 0;  // it costs as much to test its box
-    bool is_done = true;
-    for_packets(group, [&](LightPacket& p, std::uint32_t number) {
-      if (p.blocked == all_lanes()) return;
-      const std::uint32_t wanted = is_one ? met : met & meeting<Starts::in_box>(triangles.bounds, p.box);
-      if (plain_ && (met & triangles.edge_on) == 0)
-        test(group, triangles, wanted, p, number);
-      else
-        decide(group, triangles, wanted, p);
-      is_done = is_done && p.blocked == all_lanes();
+    if (out.size() < count + kGroupRays) out.resize(2 * (count + kGroupRays));
+    const bool is_one = (met.triangles & (met.triangles - 1)) == 0;  // it costs as much to test its box
+    for_packets(group, [&](const LightPacket& p, std::uint32_t number) {
+      const std::uint32_t wanted =
+          is_one ? met.triangles : met.triangles & meeting<Starts::in_box>(triangles.bounds, p.box);
+      out[count] = {met.group, number, wanted};
+      count += wanted != 0 && p.blocked != all_lanes() ? 1 : 0;
     });
-    return is_done;
+  }
+
+  /// Triangles that may block some ray of the packet. True if none of its group's rays is left.
+  HWY_INLINE bool meet(RayGroup& group, const LightTriangles& triangles, const MetPacket& met) {
+    LightPacket& p = scratch_.packets[met.packet];
+    if (plain_ && (met.triangles & triangles.edge_on) == 0)
+      test(group, triangles, met.triangles, p, met.packet);
+    else
+      decide(group, triangles, met.triangles, p);
+    if (p.blocked != all_lanes()) return false;
+    return --group.open == 0;
   }
 
   /// Writes all answers.
@@ -166,12 +174,14 @@ class LightPackets {
 
   void load(RayGroup& group) {
     group.packets = static_cast<std::uint32_t>(scratch_.packets.size());
+    group.open = 0;
     for_lanes(group.first, group.count, [&](std::size_t i, RayMask use) {
       LightPacket p;
       p.first = static_cast<std::uint32_t>(i);
       p.blocked = all_lanes() & ~ray_bits(use);
       bound(p);
       scratch_.packets.push_back(p);
+      ++group.open;
     });
   }
 
@@ -188,7 +198,6 @@ class LightPackets {
 
   HWY_INLINE void test(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted, LightPacket& p,
                        std::uint32_t number) {
-    if (wanted == 0) return;
     PacketLanes x(scratch_, p);
     for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
       if constexpr (kCounts) count_tests(p, x.blocked);

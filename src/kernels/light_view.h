@@ -55,6 +55,7 @@ struct RayGroup {
   float reach;                   ///< the largest depth
   std::uint32_t first, count;    ///< in the order of groups
   std::uint32_t packets;         ///< the first of them, or kNone before a triangle comes near
+  std::uint32_t open;            ///< packets with rays that are not blocked
 };
 
 /// Rectangles and depths side by side.
@@ -85,6 +86,14 @@ struct LightPacket {
   ViewBox box;
   std::uint32_t first;    ///< in the order of groups
   std::uint32_t blocked;  ///< lanes, with those that have no ray
+};
+
+/// Triangles of a leaf that a group's rays may meet; and a packet's.
+struct MetGroup {
+  std::uint32_t group, triangles;
+};
+struct MetPacket {
+  std::uint32_t group, packet, triangles;
 };
 
 /// Rays of a packet that may be blocked by a triangle: the exact test will tell, if nothing else blocks them.

@@ -54,7 +54,6 @@ class GroupTest {
       const auto slack = hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error));
       const std::uint32_t open = some & ~(ray_bits(hn::Lt(hn::Add(before, slack), hn::Zero(f))) & known);
 
-
       const auto error =
           hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
@@ -128,11 +127,6 @@ class LightWalk {
     Face face;
     LightViewScratch::FaceGroups& groups;
   };
-  /// Triangles of a leaf that a group's rays may meet.
-  struct Met {
-    std::uint32_t group, triangles;
-  };
-
   /// Lays groups side by side in the order in which they came, with the margins that all rays have together.
   void lay_out(LightViewScratch::FaceGroups& face) {
     for (RayGroup& g : face.groups) {
@@ -274,7 +268,7 @@ class LightWalk {
     lanes.prepare(triangles);
     std::size_t met_count = 0;
     for (std::size_t i = 0; i < near_count; ++i) {
-      const Met near = met_[i];
+      const MetGroup near = met_[i];
       const RayGroup& group = here.groups.groups[near.group];
       const GroupTest::Result result = GroupTest(group)(triangles, near.triangles);
       if (HWY_UNLIKELY(result.blocks != 0) && packets_.is_plain()) {
@@ -287,9 +281,12 @@ class LightWalk {
       met_count += result.met != 0 ? 1 : 0;
       room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
     }
-    for (std::size_t i = 0; i < met_count; ++i) {
-      const Met m = met_[i];
-      if (packets_.meet(here.groups.groups[m.group], triangles, m.triangles))
+    std::size_t wanted_count = 0;
+    for (std::size_t i = 0; i < met_count; ++i)
+      packets_.choose(here.groups.groups[met_[i].group], met_[i], triangles, wanted_, wanted_count);
+    for (std::size_t i = 0; i < wanted_count; ++i) {
+      const MetPacket& m = wanted_[i];
+      if (packets_.meet(here.groups.groups[m.group], triangles, m))
         here.groups.live[m.group / kRowLanes] &= ~(1u << m.group % kRowLanes);
     }
   }
@@ -307,7 +304,8 @@ class LightWalk {
   const ViewErrors& errors_;
   Packets& packets_;
   LightViewScratch& scratch_;
-  std::vector<Met> met_;  ///< of a leaf
+  std::vector<MetGroup> met_;      ///< of a leaf
+  std::vector<MetPacket> wanted_;  ///< of a leaf
   std::uint32_t first_group_ = 0;
   std::uint32_t first_waiting_ = 0, waiting_count_ = 0;
   std::size_t room_ = 0;  ///< for meetings of a triangle and a group
