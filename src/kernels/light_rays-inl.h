@@ -63,12 +63,15 @@ class LightRays {
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
 
-  /// A rectangle in up to eight parts, halves of halves.
+  /// A rectangle in up to kMost parts, halves of halves.
   class Parts {
    public:
+    static constexpr std::uint32_t kMost = 8;
+
     Parts(const Rectangle& r, std::uint32_t wanted) : r_(r) {
       float du = r.high_u - r.low_u, dv = r.high_v - r.low_v;
-      while (columns_ * rows_ < 8 && static_cast<std::uint32_t>(columns_ * rows_) < wanted) {
+      while (static_cast<std::uint32_t>(columns_ * rows_) < kMost &&
+             static_cast<std::uint32_t>(columns_ * rows_) < wanted) {
         const bool by_u = du >= dv;
         (by_u ? columns_ : rows_) *= 2;
         (by_u ? du : dv) *= 0.5f;
@@ -119,11 +122,17 @@ class LightRays {
       const hn::Rebind<std::uint8_t, RayTag> bytes;
       hn::StoreU(hn::DemoteTo(bytes, hn::IfThenElse(keep, part, hn::Set(n, 255))), bytes, part_of + i);
     });
+    // All parts before any group: what was just written in several pieces is slow to read in one.
+    std::size_t ends[Parts::kMost];
+    Rectangle rectangles[Parts::kMost];
+    std::size_t first = scratch_.ray_count;
     for (std::uint32_t part = 0; part < parts.count(); ++part) {
-      const std::size_t first = scratch_.ray_count;
-      const Rectangle rectangle = take_part(run, RunBits(part_of, run.count, static_cast<std::uint8_t>(part)));
-      if (scratch_.ray_count != first && !is_sorting_)
-        groups_.split(number, first, scratch_.ray_count - first, rectangle, kGroupRays);
+      rectangles[part] = take_part(run, RunBits(part_of, run.count, static_cast<std::uint8_t>(part)));
+      ends[part] = scratch_.ray_count;
+    }
+    for (std::uint32_t part = 0; part < parts.count() && !is_sorting_; ++part) {
+      if (ends[part] != first) groups_.split(number, first, ends[part] - first, rectangles[part], kGroupRays);
+      first = ends[part];
     }
   }
 
