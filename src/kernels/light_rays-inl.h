@@ -142,37 +142,43 @@ class LightRays {
     RunBits(const std::uint8_t* numbers, std::uint32_t count, std::uint8_t wanted) {
       const hn::CappedTag<std::uint8_t, 64> bytes;
       for (std::size_t i = 0; i < count; i += hn::Lanes(bytes)) {
-        alignas(8) std::uint8_t some[8] = {};
-        hn::StoreMaskBits(bytes, hn::Eq(hn::LoadU(bytes, numbers + i), hn::Set(bytes, wanted)), some);
-        std::uint64_t word;
-        std::memcpy(&word, some, sizeof word);
-        words_[i / 64] |= word << i % 64;
+        const auto is_wanted = hn::Eq(hn::LoadU(bytes, numbers + i), hn::Set(bytes, wanted));
+        words_[i / 64] |= bits_of(bytes, is_wanted) << i % 64;
+#if HWY_TARGET == HWY_SCALAR
+        eights_ = ~std::uint32_t{0};
+#else
+        const hn::Repartition<std::uint64_t, decltype(bytes)> eights;
+        const auto some = hn::Ne(hn::BitCast(eights, hn::VecFromMask(bytes, is_wanted)), hn::Zero(eights));
+        eights_ |= static_cast<std::uint32_t>(bits_of(eights, some)) << i / 8;
+#endif
       }
       words_[count / 64] &= (std::uint64_t{1} << count % 64) - 1;
     }
 
-    /// Calls each(i, lanes) for those i = 0, 16, ... where there are any.
+    /// Calls each(i, lanes) for those i = 0, 16, ... where there may be any.
     template <class Each>
     HWY_INLINE void for_each(Each&& each) const {
       const auto lanes = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
-      const hn::CappedTag<std::uint16_t, kRowLanes> rows;
-      std::uint32_t some = 0;
-      alignas(32) std::uint16_t bits[kMostRays / kRowLanes];
-      std::memcpy(bits, words_, sizeof bits);
-      for (std::size_t i = 0; i < kMostRays / kRowLanes; i += hn::Lanes(rows)) {
-        std::uint8_t b[8] = {};
-        hn::StoreMaskBits(rows, hn::Ne(hn::Load(rows, bits + i), hn::Zero(rows)), b);
-        some |= (b[0] | std::uint32_t{b[1]} << 8) << i;
-      }
-      for (; some != 0; some &= some - 1) {
-        const std::uint32_t row = first_lane(some);
+      for (std::uint32_t rest = (eights_ | eights_ >> 1) & 0x55555555; rest != 0; rest &= rest - 1) {
+        const std::uint32_t first = 8 * first_lane(rest);
+        const auto bits = static_cast<std::uint32_t>(words_[first / 64] >> first % 64);
         for (std::uint32_t k = 0; k < kRowLanes; k += lanes)
-          each(kRowLanes * row + k, lane_mask(bits[row] >> k & ((1u << lanes) - 1)));
+          each(first + k, lane_mask(bits >> k & ((1u << lanes) - 1)));
       }
     }
 
    private:
+    template <class Tag>
+    static std::uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
+      alignas(8) std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(tag, mask, bytes);
+      std::uint64_t bits;
+      std::memcpy(&bits, bytes, sizeof bits);
+      return bits;
+    }
+
     std::uint64_t words_[kMostRays / 64 + 1] = {};
+    std::uint32_t eights_ = 0;  ///< in which of eight rays there are some
   };
 
   Rectangle take_part(const RayRun& run, const RunBits& rays) {
