@@ -189,35 +189,52 @@ class LightWalk {
   /// `first` and `count` name entries of the lists, a row of groups and lanes of it; from `top` on there is room.
   void visit(Here& here, std::uint32_t index, std::size_t first, std::size_t count, std::size_t top) {
     const BvhNode& node = bvh_.node(index);
-    auto& lists = scratch_.lists;
-    if (lists.size() < top + kBvhWidth * count) lists.resize(2 * (top + kBvhWidth * count));
-    std::size_t ends[kBvhWidth];
+    if (scratch_.lists.size() < top + kBvhWidth * count) scratch_.lists.resize(2 * (top + kBvhWidth * count));
+    std::uint64_t* const lists = scratch_.lists.data();
+    std::uint32_t counts[kBvhWidth] = {};
     ViewBox boxes[kBvhWidth];
-    for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child)
       if (!project(node, child, here.face, boxes[child])) boxes[child] = kNothing;
-      ends[child] = top + child * count;
-    }
-    for (std::size_t i = first; i < first + count; ++i) {
-      const auto row = static_cast<std::uint32_t>(lists[i] >> 32);
-      const std::uint32_t lanes = static_cast<std::uint32_t>(lists[i]) & here.groups.live[row];
+    for (const std::uint64_t* entry = lists + first; entry != lists + first + count; ++entry) {
+      const auto row = static_cast<std::uint32_t>(*entry >> 32);
+      const std::uint32_t lanes = static_cast<std::uint32_t>(*entry) & here.groups.live[row];
       if (lanes == 0) continue;
       if constexpr (kCounts) share(row, lanes, false);
       for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
         const std::uint32_t met = lanes & meeting<Starts::in_rows>(here.groups.rows[row], boxes[child]);
-        lists[ends[child]] = static_cast<std::uint64_t>(row) << 32 | met;
-        ends[child] += met != 0 ? 1 : 0;  // no branch, as it would not be foreseen
+        lists[top + child * count + counts[child]] = static_cast<std::uint64_t>(row) << 32 | met;
+        counts[child] += met != 0 ? 1 : 0;  // no branch, as it would not be foreseen
       }
     }
-    for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
+    // What most groups meet comes first: those that it blocks are done with.
+    std::uint32_t order[kBvhWidth];
+    for (std::uint32_t child = 0; child < kBvhWidth; ++child) order[child] = counts[child] * kBvhWidth + child;
+    sort_four(order);
+    for (const std::uint32_t key : order) {
+      if (key < kBvhWidth) break;
+      const std::uint32_t child = key % kBvhWidth;
       const std::size_t list = top + child * count;
-      if (ends[child] == list) continue;
       if (room_ == 0) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
-        add_leaf(here, next & ~BvhNode::kLeaf, list, ends[child]);
+        add_leaf(here, next & ~BvhNode::kLeaf, list, list + counts[child]);
       else
-        visit(here, next, list, ends[child] - list, top + kBvhWidth * count);
+        visit(here, next, list, counts[child], top + kBvhWidth * count);
     }
+  }
+
+  /// The largest first.
+  static HWY_INLINE void sort_four(std::uint32_t (&x)[4]) {
+    const auto order = [&x](std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t more = std::max(x[a], x[b]);
+      x[b] = std::min(x[a], x[b]);
+      x[a] = more;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
   }
 
   static void prefetch(const TriangleRows& rows) {
