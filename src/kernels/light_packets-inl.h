@@ -116,18 +116,20 @@ class LightPackets {
     }
   }
 
-  /// Appends the group's packets that triangles come near; `out` has `count` of use.
-  HWY_INLINE void choose(RayGroup& group, const MetGroup& met, const LightTriangles& triangles,
-                         std::vector<MetPacket>& out, std::size_t& count) {
+  /// Adds the group's packets that triangles come near to the `count` that the scratch has.
+  HWY_INLINE void choose(RayGroup& group, const MetGroup& met, const LightTriangles& triangles, std::size_t& count) {
     if (group.packets == RayGroup::kNone) load(group);
-    if (out.size() < count + kGroupRays) out.resize(2 * (count + kGroupRays));
+    auto& chosen = scratch_.met_packets;
+    if (chosen.size() < count + kGroupRays) chosen.resize(2 * (count + kGroupRays));
+    MetPacket* out = chosen.data() + count;
     const bool is_one = (met.triangles & (met.triangles - 1)) == 0;  // it costs as much to test its box
     for_packets(group, [&](const LightPacket& p, std::uint32_t number) {
       const std::uint32_t wanted =
           is_one ? met.triangles : met.triangles & meeting<Starts::in_box>(triangles.bounds, p.box);
-      out[count] = {met.group, number, wanted};
-      count += wanted != 0 && p.blocked != all_lanes() ? 1 : 0;
+      *out = {met.group, number, wanted};
+      out += wanted != 0 && p.blocked != all_lanes() ? 1 : 0;
     });
+    count = static_cast<std::size_t>(out - chosen.data());
   }
 
   /// Triangles that may block some ray of the packet. True if none of its group's rays is left.
@@ -208,17 +210,22 @@ class LightPackets {
     }
     p.blocked = ray_bits(x.blocked);
     if (HWY_UNLIKELY(!hn::AllFalse(RayTag(), hn::AndNot(x.blocked, x.open))))
-      note_open(group, triangles, wanted, number, x);
+      note_open(group, triangles, wanted, p, number, x);
   }
 
+  /// For the end, as most are blocked by something else; where they are very many, at once.
   HWY_NOINLINE void note_open(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
-                              std::uint32_t number, const PacketLanes& x) {
+                              LightPacket& p, std::uint32_t number, const PacketLanes& x) {
     for (; wanted != 0; wanted &= wanted - 1) {
       const std::uint32_t lane = first_lane(wanted);
       RayMask hit, open;
       TriangleTest(triangles, lane, group)(x, hit, open);
-      const std::uint32_t rays = ray_bits(hn::AndNot(x.blocked, open));
-      if (rays != 0) scratch_.open.push_back({number, rays, triangles.id[lane]});
+      const std::uint32_t rays = ray_bits(open) & ~p.blocked;
+      if (rays == 0) continue;
+      if (scratch_.open.size() < scratch_.ray_count)
+        scratch_.open.push_back({number, rays, triangles.id[lane]});
+      else
+        p.blocked |= exactly(p, rays, triangles.id[lane]);
     }
   }
 

@@ -10,7 +10,6 @@
 #include <new>
 #include <vector>
 
-#include "core/chunked_array.h"
 #include "core/lazy_array.h"
 #include "index/triangle_bvh.h"
 #include "index/wide_tree.h"
@@ -153,6 +152,8 @@ struct LightViewScratch {
   WaitingLeaf waiting[kWaitingLeaves];
   std::vector<LightPacket> packets;
   std::vector<OpenRays> open;
+  std::vector<MetGroup> met_groups;  ///< of a leaf
+  std::vector<MetPacket> met_packets;
   std::vector<SharedWork> shared;  ///< by group; only for queries that count
   std::vector<std::uint32_t> odd;  ///< rays that do not end at the light, or are nothing for floats
   ShaftScratch shafts;             ///< of calls that are answered by those instead

@@ -127,6 +127,7 @@ class LightWalk {
     Face face;
     LightViewScratch::FaceGroups& groups;
   };
+
   /// Lays groups side by side in the order in which they came, with the margins that all rays have together.
   void lay_out(LightViewScratch::FaceGroups& face) {
     for (RayGroup& g : face.groups) {
@@ -260,13 +261,32 @@ class LightWalk {
     if (room_ != 0) visit_rows(here, bvh_.rows(leaf.rows), leaf.list);
   }
 
+  /// In turns, so that no branch depends on what has just been computed.
   void visit_rows(Here& here, const TriangleRows& rows, const std::vector<std::uint64_t>& list) {
     const TriangleLanes lanes(rows, here.face, light_, errors_);
     LightTriangles triangles;
     lanes.bound(triangles.bounds);
-    const std::uint32_t all = (1u << rows.count) - 1;
-    if (met_.size() < kRowLanes * list.size()) met_.resize(kRowLanes * list.size());
-    std::size_t near_count = 0;
+    const std::size_t near_count = find_near(here, triangles, (1u << rows.count) - 1, list);
+    if (near_count == 0) return;
+    lanes.prepare(triangles);
+    const std::size_t met_count = find_met(here, triangles, near_count);
+    const MetGroup* const groups = scratch_.met_groups.data();
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < met_count; ++i)
+      packets_.choose(here.groups.groups[groups[i].group], groups[i], triangles, count);
+    const MetPacket* const chosen = scratch_.met_packets.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const MetPacket met = chosen[i];
+      if (packets_.meet(here.groups.groups[met.group], triangles, met)) end(here, met.group);
+    }
+  }
+
+  /// Groups whose rectangles and depths meet those of some triangles. Returns their number.
+  HWY_INLINE std::size_t find_near(Here& here, const LightTriangles& triangles, std::uint32_t all,
+                                   const std::vector<std::uint64_t>& list) {
+    if (scratch_.met_groups.size() < kRowLanes * list.size()) scratch_.met_groups.resize(kRowLanes * list.size());
+    MetGroup* const found = scratch_.met_groups.data();
+    std::size_t count = 0;
     for (const std::uint64_t entry : list) {
       const auto row = static_cast<std::uint32_t>(entry >> 32);
       const std::uint32_t live = static_cast<std::uint32_t>(entry) & here.groups.live[row];
@@ -277,35 +297,37 @@ class LightWalk {
         const ViewBox box{g[ViewRows::low_u][lane], g[ViewRows::high_u][lane], g[ViewRows::low_v][lane],
                           g[ViewRows::high_v][lane], g[ViewRows::depth][lane]};
         const std::uint32_t near = all & meeting<Starts::in_box>(triangles.bounds, box);
-        met_[near_count] = {row * kRowLanes + lane, near};
-        near_count += near != 0 ? 1 : 0;
+        found[count] = {row * kRowLanes + lane, near};
+        count += near != 0 ? 1 : 0;
       }
     }
-    if (near_count == 0) return;
-    lanes.prepare(triangles);
-    std::size_t met_count = 0;
+    return count;
+  }
+
+  /// Leaves those whose rays triangles may block, but for groups that one of them covers. Returns their number.
+  HWY_INLINE std::size_t find_met(Here& here, const LightTriangles& triangles, std::size_t near_count) {
+    MetGroup* const found = scratch_.met_groups.data();
+    std::size_t count = 0;
     for (std::size_t i = 0; i < near_count; ++i) {
-      const MetGroup near = met_[i];
+      const MetGroup near = found[i];
       const RayGroup& group = here.groups.groups[near.group];
       const GroupTest::Result result = GroupTest(group)(triangles, near.triangles);
       if (HWY_UNLIKELY(result.blocks != 0) && packets_.is_plain()) {
         packets_.cover(group);
-        here.groups.live[near.group / kRowLanes] &= ~(1u << near.group % kRowLanes);
+        end(here, near.group);
         continue;
       }
       if (result.met != 0) packets_.prefetch(group);
-      met_[met_count] = {near.group, result.met};
-      met_count += result.met != 0 ? 1 : 0;
+      found[count] = {near.group, result.met};
+      count += result.met != 0 ? 1 : 0;
       room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
     }
-    std::size_t wanted_count = 0;
-    for (std::size_t i = 0; i < met_count; ++i)
-      packets_.choose(here.groups.groups[met_[i].group], met_[i], triangles, wanted_, wanted_count);
-    for (std::size_t i = 0; i < wanted_count; ++i) {
-      const MetPacket& m = wanted_[i];
-      if (packets_.meet(here.groups.groups[m.group], triangles, m))
-        here.groups.live[m.group / kRowLanes] &= ~(1u << m.group % kRowLanes);
-    }
+    return count;
+  }
+
+  /// All rays of the group are blocked.
+  static void end(Here& here, std::uint32_t group) {
+    here.groups.live[group / kRowLanes] &= ~(1u << group % kRowLanes);
   }
 
   void share(std::uint32_t row, std::uint32_t lanes, bool is_leaf) {
@@ -321,8 +343,6 @@ class LightWalk {
   const ViewErrors& errors_;
   Packets& packets_;
   LightViewScratch& scratch_;
-  std::vector<MetGroup> met_;      ///< of a leaf
-  std::vector<MetPacket> wanted_;  ///< of a leaf
   std::uint32_t first_group_ = 0;
   std::uint32_t first_waiting_ = 0, waiting_count_ = 0;
   std::size_t room_ = 0;  ///< for meetings of a triangle and a group
