@@ -45,6 +45,9 @@ enum class Reach {
 /// No hit lies beyond: near origins are within 9 units of a scene of size 2, and no direction is shorter than 1.
 inline constexpr double kTimeLimit = 256;
 
+/// Origins within so much of the scene's box are near.
+HWY_INLINE float near_margin(const Tree& tree) { return 4 * tree.root.largest_extent(); }
+
 /// Could flush-to-zero lose a denormal value that matters in the tree's units?
 inline bool has_denormals(const Ray& ray) {
   const float values[8] = {ray.origin[0],    ray.origin[1],    ray.origin[2],    ray.tmin,
@@ -66,7 +69,7 @@ HWY_INLINE Reach prepare(const Ray& ray, const Tree& tree, WalkRay& out) {
   const Lanes4 f;
   const auto position_scale = hn::Set(f, power_of_two(tree.scale_exponent));
   const auto direction_scale = hn::Set(f, power_of_two(-direction_exponent));
-  const auto margin = hn::Set(f, 4 * tree.root.largest_extent());
+  const auto margin = hn::Set(f, near_margin(tree));
   const auto least = hn::Set(f, 0x1p-64f);
   const BoxLanes& root = tree.root_lanes;
   // The ray's floats in order: origin, tmin, direction, tmax. The spare lanes so hold tmin and tmax, which no one

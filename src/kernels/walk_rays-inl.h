@@ -47,7 +47,7 @@ class WalkRays {
 
  private:
   bool is_near(const Tree& tree) const {
-    const float margin = 4 * tree.root.largest_extent();
+    const float margin = near_margin(tree);
     bool result = true;
     for (int k = 0; k < 3; ++k)
       result &= start_[k] >= tree.root.lower[k] - margin && start_[k] <= tree.root.upper[k] + margin;
