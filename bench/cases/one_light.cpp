@@ -47,11 +47,14 @@ Float3 light_of(OneLight kind, const Triangles& triangles, Random& random) {
   }
 }
 
-/// A start that the light sees at the target, or nearly: before it, behind it or just there.
-Float3 start_at(const Float3& light, const Float3& target, Random& random) {
-  float s = random.uniform(1, 3);
-  if (random.chance(0.2)) s = random.uniform(0.2f, 1);
-  if (random.chance(0.2)) s = 1 + random.sign() * random.magnitude(-8, -3);
+/// How far from a light a start is, for a target at 1: before it, behind it or just there.
+float distance_of_start(Random& random) {
+  if (random.chance(0.2)) return 1 + random.sign() * random.magnitude(-8, -3);
+  return random.chance(0.2) ? random.uniform(0.2f, 1) : random.uniform(1, 3);
+}
+
+/// A start that the light sees at the target, or nearly.
+Float3 start_at(const Float3& light, const Float3& target, float s, Random& random) {
   Float3 start = between(light, target, s);
   if (random.chance(0.5)) {
     const float far = std::numeric_limits<float>::infinity();
@@ -81,10 +84,20 @@ CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count) 
   Random random(seed);
   CaseData data{seen_scene(random), {}};
   const Float3 light = light_of(kind, data.triangles, random);
-  for (std::size_t i = 0; i < ray_count; ++i) {
-    const Float3 target = point_on(data.triangles[random.below(data.triangles.size())], random);
-    data.rays.push_back(ray_from(start_at(light, target, random), light, random));
+  // From anywhere, or from near each other, as those of pixels.
+  const std::size_t run = random.chance(0.3) ? 1 : 8 + random.below(40);
+  while (data.rays.size() < ray_count) {
+    const oracle::Triangle& aim = data.triangles[random.below(data.triangles.size())];
+    const Float3 target = point_on(aim, random);
+    const float s = distance_of_start(random);
+    for (std::size_t k = 0; k < run; ++k) {
+      const bool is_there = run == 1 || random.chance(0.5);
+      const Float3 near = is_there ? target : between(target, point_on(aim, random), random.magnitude(-7, -2.5f));
+      const float moved = run == 1 ? s : s + random.sign() * random.magnitude(-9, -2.7f);
+      data.rays.push_back(ray_from(start_at(light, near, moved, random), light, random));
+    }
   }
+  data.rays.resize(ray_count);
   return data;
 }
 
@@ -105,7 +118,7 @@ CaseData from_points(OneLight kind, std::uint64_t seed, std::size_t ray_count) {
                                                        middle[2] + u[2] * spread[2]};
       for (std::size_t rays = random.chance(0.7) ? 16 : 1 + random.below(20); rays > 0; --rays) {
         const Float3 target = point_on(all[(aim + random.below(wide)) % all.size()], random);
-        data.rays.push_back(ray_from(start, start_at(start, target, random), random));
+        data.rays.push_back(ray_from(start, start_at(start, target, distance_of_start(random), random), random));
       }
     }
   }
