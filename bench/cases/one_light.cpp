@@ -90,10 +90,11 @@ CaseData to_one_light(OneLight kind, std::uint64_t seed, std::size_t ray_count) 
     const oracle::Triangle& aim = data.triangles[random.below(data.triangles.size())];
     const Float3 target = point_on(aim, random);
     const float s = distance_of_start(random);
-    for (std::size_t k = 0; k < run; ++k) {
-      const bool is_there = run == 1 || random.chance(0.5);
-      const Float3 near = is_there ? target : between(target, point_on(aim, random), random.magnitude(-7, -2.5f));
-      const float moved = run == 1 ? s : s + random.sign() * random.magnitude(-9, -2.7f);
+    data.rays.push_back(ray_from(start_at(light, target, s, random), light, random));
+    for (std::size_t k = 1; k < run; ++k) {
+      const Float3 near =
+          random.chance(0.5) ? target : between(target, point_on(aim, random), random.magnitude(-7, -2.5f));
+      const float moved = s + random.sign() * random.magnitude(-9, -2.7f);
       data.rays.push_back(ray_from(start_at(light, near, moved, random), light, random));
     }
   }

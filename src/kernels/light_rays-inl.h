@@ -143,13 +143,13 @@ class LightRays {
       const hn::CappedTag<std::uint8_t, 64> bytes;
       for (std::size_t i = 0; i < count; i += hn::Lanes(bytes)) {
         const auto is_wanted = hn::Eq(hn::LoadU(bytes, numbers + i), hn::Set(bytes, wanted));
-        words_[i / 64] |= bits_of(bytes, is_wanted) << i % 64;
+        words_[i / 64] |= mask_bits<std::uint64_t>(bytes, is_wanted) << i % 64;
 #if HWY_TARGET == HWY_SCALAR
         eights_ = ~std::uint32_t{0};
 #else
         const hn::Repartition<std::uint64_t, decltype(bytes)> eights;
         const auto some = hn::Ne(hn::BitCast(eights, hn::VecFromMask(bytes, is_wanted)), hn::Zero(eights));
-        eights_ |= static_cast<std::uint32_t>(bits_of(eights, some)) << i / 8;
+        eights_ |= std::uint32_t{mask_bits<std::uint8_t>(eights, some)} << i / 8;
 #endif
       }
       words_[count / 64] &= (std::uint64_t{1} << count % 64) - 1;
@@ -168,15 +168,6 @@ class LightRays {
     }
 
    private:
-    template <class Tag>
-    static std::uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
-      alignas(8) std::uint8_t bytes[8] = {};
-      hn::StoreMaskBits(tag, mask, bytes);
-      std::uint64_t bits;
-      std::memcpy(&bits, bytes, sizeof bits);
-      return bits;
-    }
-
     std::uint64_t words_[kMostRays / 64 + 1] = {};
     std::uint32_t eights_ = 0;  ///< in which of eight rays there are some
   };

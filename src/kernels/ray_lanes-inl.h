@@ -29,17 +29,23 @@ using RayVec = hn::Vec<RayTag>;
 using RayMask = hn::Mask<RayTag>;
 using RayBitsTag = hn::RebindToSigned<RayTag>;
 
-inline std::uint32_t ray_bits(RayMask mask) {
+/// The lanes of a mask, of as many as Bits has at most.
+template <class Bits, class Tag>
+HWY_INLINE Bits mask_bits(Tag tag, hn::Mask<Tag> mask) {
   alignas(8) std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(RayTag(), mask, bytes);
+  hn::StoreMaskBits(tag, mask, bytes);
 #if HWY_IS_LITTLE_ENDIAN
-  std::uint16_t bits;  // in one piece: compilers then leave the memory out
+  Bits bits;  // in one piece: compilers then leave the memory out
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
 #else
-  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < sizeof(Bits); ++i) bits |= std::uint64_t{bytes[i]} << 8 * i;
+  return static_cast<Bits>(bits);
 #endif
 }
+
+HWY_INLINE std::uint32_t ray_bits(RayMask mask) { return mask_bits<std::uint16_t>(RayTag(), mask); }
 
 /// The lowest lane of some.
 inline std::uint32_t first_lane(std::uint32_t lanes) {

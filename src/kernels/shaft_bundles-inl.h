@@ -70,7 +70,9 @@ class BundleReader {
   }
 
  private:
+  /// So many rays ahead are fetched.
   static constexpr std::size_t kAhead = 512;
+
   /// Within these, what denormals may lose is too small to matter.
   static constexpr float kLeastLength = 0x1p-30f, kMostLength = 0x1p20f;
 

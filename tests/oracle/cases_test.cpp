@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "case_parameters.h"
 #include "judge/judge.h"
@@ -45,6 +46,36 @@ TEST_P(HardCase, EveryKernelIsRight) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllCases, HardCase, testing::ValuesIn(case_names()), case_test_name);
+
+/// Are most rays within 1/64 of the scene's extent of the one before? Only then are a few hundred answered as the light
+/// sees them (src/kernels/near_rays.h).
+bool start_near_each_other(const cases::CaseData& data) {
+  float low[3], high[3], extent = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = high[k] = data.triangles[0].v[0][k];
+    for (const oracle::Triangle& t : data.triangles)
+      for (const auto& vertex : t.v) {
+        low[k] = std::min(low[k], vertex[k]);
+        high[k] = std::max(high[k], vertex[k]);
+      }
+    extent = std::max(extent, high[k] - low[k]);
+  }
+  std::size_t near = 0;
+  for (std::size_t i = 1; i < data.rays.size(); ++i) {
+    const float(&a)[3] = data.rays[i - 1].origin, (&b)[3] = data.rays[i].origin;
+    near += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) < extent / 64 ? 1 : 0;
+  }
+  return near > data.rays.size() * 3 / 4;
+}
+
+TEST(OneLight, ManyScenesAreForTheLightsView) {
+  for (const char* name : {"one_light", "one_light_in_plane", "one_light_at_vertex", "one_light_near"}) {
+    std::size_t count = 0;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed)
+      count += start_near_each_other(cases::find_case(name)->make(seed, 400)) ? 1 : 0;
+    EXPECT_GE(count, 10u) << name;
+  }
+}
 
 }  // namespace
 }  // namespace umbrix::judge
