@@ -26,7 +26,7 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// More rays are answered in parts.
+/// A call's; more are several calls'.
 inline constexpr std::size_t kMostViewRays = std::size_t{1} << 20;
 
 /// One call's view.
@@ -58,6 +58,8 @@ class LightTrace {
   static constexpr std::size_t kFewestRays = 128;
   /// So many are near each other wherever they start; fewer that start far apart had better walk alone.
   static constexpr std::size_t kManyRays = 3u << 14;
+  /// More are answered in parts, so that what is kept of them stays in the caches of a core.
+  static constexpr std::size_t kPartRays = 1u << 16;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
@@ -65,20 +67,34 @@ class LightTrace {
 
   bool trace(const GroupRays& rays, LightViewScratch& scratch) {
     LightRays light_rays(rays.rays, power_of_two(scene_.tree->scale_exponent), scratch);
-    if (!light_rays.read()) return false;
-    std::vector<Counts> each;
+    std::vector<Counts> each(kCounts ? rays.rays.count : 0);
+    const std::size_t all = rays.rays.count;
+    for (std::size_t begin = 0, end; begin < all; begin = end) {
+      end = all - begin < 2 * kPartRays ? all : begin + kPartRays;
+      if (trace_part(rays, begin, end, light_rays, scratch, each)) continue;
+      if (end == all) return false;
+      end = all;
+      if (!trace_part(rays, begin, end, light_rays, scratch, each)) return false;
+    }
+    deliver(rays, each);
+    return true;
+  }
+
+  /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all that are left, or
+  /// if these are, not here.
+  bool trace_part(const GroupRays& rays, std::size_t begin, std::size_t end, LightRays& light_rays,
+                  LightViewScratch& scratch, std::vector<Counts>& each) const {
+    if (light_rays.read(begin, end) != LightRays::Result::read) return false;
     const auto walk = [&] {
-      each.assign(kCounts ? rays.rays.count : 0, {});
+      if constexpr (kCounts) std::fill(each.begin() + begin, each.begin() + end, Counts());
       LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);
       if (!LightWalk(table_.bvh(), light_rays.light(), light_rays.errors(), packets, scratch).walk()) return false;
-      std::memset(rays.out, 0, rays.rays.count);
+      std::memset(rays.out + begin, 0, end - begin);
       packets.finish();
       return true;
     };
-    if (!walk() && !(rays.rays.count >= kSortedRays && light_rays.sort() && walk())) return false;
-
+    if (!walk() && !(end == rays.rays.count && end - begin >= kSortedRays && light_rays.sort() && walk())) return false;
     trace_odd(rays, scratch, each);
-    deliver(rays, each);
     return true;
   }
 
