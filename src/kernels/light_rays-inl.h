@@ -30,8 +30,8 @@ class LightRays {
 
   enum class Result { read, wants_all, failed };
 
-  /// Reads those from `begin` to `end`, in place of any before. Where they come in no order that serves, it wants all that
-  /// there are, to sort them; it fails if there are too many that do not end where the first ones of the call do.
+  /// Reads those from `begin` to `end`, in place of any before. Where they come in no order that serves, it wants all
+  /// that there are, to sort them; it fails if there are too many that do not end where the first ones of the call do.
   Result read(std::size_t begin, std::size_t end) {
     scratch_.clear(end - begin + kRowLanes);
     groups_.clear();

@@ -76,7 +76,8 @@ class LightReader {
 
   /// Forgets the errors of all rays so far.
   void clear() {
-    for (auto* errors : {&start_errors_, &end_errors_, &most_errors_}) std::fill(std::begin(*errors), std::end(*errors), 0.0f);
+    for (auto* errors : {&start_errors_, &end_errors_, &most_errors_})
+      std::fill(std::begin(*errors), std::end(*errors), 0.0f);
   }
 
   /// At most kMostRays.

@@ -3,12 +3,16 @@
 // Many rays to one light, which the default kernel answers together: each must have the answer that it has alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "two_meshes.h"
 
 namespace umbrix::detail {
 namespace {
 
 constexpr std::size_t kRays = 3000;
+const Vec3 kLight(0.1f, 0.2f, 0.3f);
 
 std::vector<Ray> some_rays() { return rays_to_light(kRays, Vec3(0.3f, 0.9f, -0.2f), 5); }
 
@@ -20,13 +24,59 @@ TEST(LightView, LightsByTurnsAreAnsweredOtherwise) {
   expect_right(two.scene, rays);
 }
 
+/// In one call, counted or not, each has the answer that it has alone, and is counted once.
+void expect_as_alone(const std::vector<Ray>& rays) {
+  const TwoMeshes two;
+  std::vector<std::uint8_t> alone(rays.size()), answers(rays.size(), 7);
+  for (std::size_t i = 0; i < rays.size(); ++i) alone[i] = two.scene.occluded(rays[i]) ? 1 : 0;
+  two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data());
+  EXPECT_EQ(answers, alone);
+  std::fill(answers.begin(), answers.end(), std::uint8_t{7});
+  OcclusionCounts counts;
+  two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data(), counts);
+  EXPECT_EQ(answers, alone);
+  EXPECT_EQ(counts.occluded.rays + counts.unoccluded.rays, rays.size());
+}
+
+/// So many that they are answered in parts if they come in an order that serves.
+constexpr std::size_t kVeryMany = 150000;
+
+/// From three walls, in blocks of 16 by 16, to a light between them.
+std::vector<Ray> from_walls(std::size_t count) {
+  std::vector<Ray> rays;
+  constexpr std::size_t kBlocks = 16;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t block = i / 256, wall = block / (kBlocks * kBlocks) % 3;
+    const auto place = [](std::size_t b, std::size_t k) { return static_cast<float>(16 * b + k) / (8 * kBlocks) - 1; };
+    Vec3 start;
+    start[static_cast<int>(wall)] = 1.25f;
+    start[static_cast<int>((wall + 1) % 3)] = place(block % kBlocks, i % 16);
+    start[static_cast<int>((wall + 2) % 3)] = place(block / kBlocks % kBlocks, i / 16 % 16);
+    const Vec3 way = kLight - start;
+    rays.push_back({{start.x, start.y, start.z}, 0, {way.x, way.y, way.z}, 1});
+  }
+  return rays;
+}
+
 TEST(LightView, ManyRaysFromEverywhereAreSorted) {
   // So many that they come in an order that the light cannot use, and are brought into one.
-  const TwoMeshes two;
-  const std::vector<Ray> rays = rays_to_light(100000, Vec3(0.1f, 0.2f, 0.3f), 9);
-  std::vector<std::uint8_t> answers(rays.size());
-  two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data());
-  for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(answers[i] != 0, two.scene.occluded(rays[i])) << i;
+  expect_as_alone(rays_to_light(100000, kLight, 9));
+}
+
+TEST(LightView, VeryManyRaysComeInParts) { expect_as_alone(from_walls(kVeryMany)); }
+
+TEST(LightView, OrderMayEndAfterAPart) {
+  std::vector<Ray> rays = from_walls(kVeryMany);
+  const std::vector<Ray> others = rays_to_light(kVeryMany, kLight, 10);
+  std::copy(others.begin() + kVeryMany / 2, others.end(), rays.begin() + kVeryMany / 2);
+  expect_as_alone(rays);
+}
+
+TEST(LightView, TheLightMayChangeAfterAPart) {
+  std::vector<Ray> rays = from_walls(kVeryMany);
+  const std::vector<Ray> others = rays_to_light(kVeryMany, Vec3(-0.9f, 0.1f, 0.4f), 11);
+  std::copy(others.begin() + kVeryMany / 2, others.end(), rays.begin() + kVeryMany / 2);
+  expect_as_alone(rays);
 }
 
 TEST(LightView, OneWalkServesAllRays) {
