@@ -28,33 +28,31 @@ class LightRays {
         light_(find_light(rays, scale)),
         reader_(rays, scale, light_, scratch.odd) {}
 
-  enum class Result { read, wants_all, failed };
-
-  /// Reads those from `begin` to `end`, in place of any before. Where they come in no order that serves, it wants all
-  /// that there are, to sort them; it fails if there are too many that do not end where the first ones of the call do.
-  Result read(std::size_t begin, std::size_t end) {
+  /// Reads those from `begin` to `end`, in place of any before. False if there are too many that do not end where most
+  /// do, or if they would have to be sorted: that is for all that are left, to the end of the call.
+  bool read(std::size_t begin, std::size_t end) {
     scratch_.clear(end - begin + kRowLanes);
     groups_.clear();
     reader_.clear();
     is_sorting_ = false;
-    const bool is_part = end != rays_.count;
-    const float most_layers = is_part ? kMostPartLayers : kMostLayers;
+    const bool has_more = end != rays_.count;
+    const float most_layers = has_more ? kMostBatchLayers : kMostLayers;
     std::size_t next_look = 16 * kMostRays;
     for (std::size_t done = 0; done < end - begin; done += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end - begin - done));
       const RayRun& run = reader_.read(begin + done, count);
-      if (16 * scratch_.odd.size() > kMostRays + done) return Result::failed;
+      if (16 * scratch_.odd.size() > kMostRays + done) return false;
       for (std::uint32_t faces = run.faces; faces != 0; faces &= faces - 1) take_face(run, first_lane(faces));
       if (done < next_look || is_sorting_) continue;
       is_sorting_ = groups_.layers() > most_layers;
-      if (is_sorting_ && is_part) return Result::wants_all;
+      if (is_sorting_ && has_more) return false;
       next_look *= 2;
     }
     is_sorting_ = is_sorting_ || groups_.layers() > most_layers;
-    if (is_sorting_ && is_part) return Result::wants_all;
+    if (is_sorting_ && has_more) return false;
     if (is_sorting_) groups_.sort();
     errors_ = reader_.errors();
-    return Result::read;
+    return true;
   }
 
   /// Sorts what was read, which may cost less to walk then. False if it is sorted.
@@ -70,8 +68,8 @@ class LightRays {
 
  private:
   static constexpr float kMostLayers = 5;
-  /// Of a part of the rays: with more of them there will be more.
-  static constexpr float kMostPartLayers = 3.5f;
+  /// Of a batch: with more rays there will be more.
+  static constexpr float kMostBatchLayers = 3.5f;
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
 

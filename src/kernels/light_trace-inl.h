@@ -26,7 +26,7 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// A call's; more are several calls'.
+/// Of more the rest is another call's.
 inline constexpr std::size_t kMostViewRays = std::size_t{1} << 20;
 
 /// One call's view.
@@ -58,8 +58,8 @@ class LightTrace {
   static constexpr std::size_t kFewestRays = 128;
   /// So many are near each other wherever they start; fewer that start far apart had better walk alone.
   static constexpr std::size_t kManyRays = 3u << 14;
-  /// More are answered in parts, so that what is kept of them stays in the caches of a core.
-  static constexpr std::size_t kPartRays = 1u << 16;
+  /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
+  static constexpr std::size_t kBatchRays = 1u << 16;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
@@ -70,11 +70,11 @@ class LightTrace {
     std::vector<Counts> each(kCounts ? rays.rays.count : 0);
     const std::size_t all = rays.rays.count;
     for (std::size_t begin = 0, end; begin < all; begin = end) {
-      end = all - begin < 2 * kPartRays ? all : begin + kPartRays;
-      if (trace_part(rays, begin, end, light_rays, scratch, each)) continue;
+      end = all - begin < 2 * kBatchRays ? all : begin + kBatchRays;
+      if (trace_batch(rays, begin, end, light_rays, scratch, each)) continue;
       if (end == all) return false;
       end = all;
-      if (!trace_part(rays, begin, end, light_rays, scratch, each)) return false;
+      if (!trace_batch(rays, begin, end, light_rays, scratch, each)) return false;
     }
     deliver(rays, each);
     return true;
@@ -82,9 +82,9 @@ class LightTrace {
 
   /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all that are left, or
   /// if these are, not here.
-  bool trace_part(const GroupRays& rays, std::size_t begin, std::size_t end, LightRays& light_rays,
-                  LightViewScratch& scratch, std::vector<Counts>& each) const {
-    if (light_rays.read(begin, end) != LightRays::Result::read) return false;
+  bool trace_batch(const GroupRays& rays, std::size_t begin, std::size_t end, LightRays& light_rays,
+                   LightViewScratch& scratch, std::vector<Counts>& each) const {
+    if (!light_rays.read(begin, end)) return false;
     const auto walk = [&] {
       if constexpr (kCounts) std::fill(each.begin() + begin, each.begin() + end, Counts());
       LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);
