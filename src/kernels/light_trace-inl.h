@@ -59,7 +59,7 @@ class LightTrace {
   /// So many are near each other wherever they start; fewer that start far apart had better walk alone.
   static constexpr std::size_t kManyRays = 3u << 14;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
-  static constexpr std::size_t kBatchRays = 1u << 16;
+  static constexpr std::size_t kBatchRays = 1u << 17;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.

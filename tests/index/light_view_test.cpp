@@ -38,8 +38,8 @@ void expect_as_alone(const std::vector<Ray>& rays) {
   EXPECT_EQ(counts.occluded.rays + counts.unoccluded.rays, rays.size());
 }
 
-/// So many that they are answered in three batches if they come in an order that serves; and more than the first.
-constexpr std::size_t kVeryMany = 200000, kFirstBatch = 70000;
+/// Where a batch of an ordered call has ended, and rays enough for two of them, or three.
+constexpr std::size_t kBatchEnds = 140000, kTwoBatches = 270000, kThreeBatches = 400000;
 
 /// From three walls, in blocks of 16 by 16, to a light between them.
 std::vector<Ray> from_walls(std::size_t count) {
@@ -63,20 +63,19 @@ TEST(LightView, ManyRaysFromEverywhereAreSorted) {
   expect_as_alone(rays_to_light(100000, kLight, 9));
 }
 
-TEST(LightView, VeryManyRaysComeInBatches) { expect_as_alone(from_walls(kVeryMany)); }
-
-TEST(LightView, OrderMayEndAfterABatch) {
-  std::vector<Ray> rays = from_walls(kVeryMany);
-  const std::vector<Ray> others = rays_to_light(kVeryMany, kLight, 10);
-  std::copy(others.begin() + kFirstBatch, others.end(), rays.begin() + kFirstBatch);
-  expect_as_alone(rays);
+/// The rays from a batch's end on are others.
+std::vector<Ray> from_walls_then(const std::vector<Ray>& others) {
+  std::vector<Ray> rays = from_walls(others.size());
+  std::copy(others.begin() + kBatchEnds, others.end(), rays.begin() + kBatchEnds);
+  return rays;
 }
 
+TEST(LightView, VeryManyRaysComeInBatches) { expect_as_alone(from_walls(kTwoBatches)); }
+
+TEST(LightView, OrderMayEndAfterABatch) { expect_as_alone(from_walls_then(rays_to_light(kThreeBatches, kLight, 10))); }
+
 TEST(LightView, TheLightMayChangeAfterABatch) {
-  std::vector<Ray> rays = from_walls(kVeryMany);
-  const std::vector<Ray> others = rays_to_light(kVeryMany, Vec3(-0.9f, 0.1f, 0.4f), 11);
-  std::copy(others.begin() + kFirstBatch, others.end(), rays.begin() + kFirstBatch);
-  expect_as_alone(rays);
+  expect_as_alone(from_walls_then(rays_to_light(kTwoBatches, Vec3(-0.9f, 0.1f, 0.4f), 11)));
 }
 
 TEST(LightView, OneWalkServesAllRays) {
