@@ -28,15 +28,15 @@ class LightRays {
         light_(find_light(rays, scale)),
         reader_(rays, scale, light_, scratch.odd) {}
 
-  /// Reads those from `begin` to `end`, in place of any before. False if there are too many that do not end where most
-  /// do, or if they would have to be sorted: that is for all that are left, to the end of the call.
-  bool read(std::size_t begin, std::size_t end) {
+  /// Reads those from `begin` to `end`, in place of any before. If groups lie in more layers on average, all that are
+  /// left to the end of the call have to be sorted. False if these are not all, or if too many do not end where most
+  /// do.
+  bool read(std::size_t begin, std::size_t end, float most_layers) {
     scratch_.clear(end - begin + kRowLanes);
     groups_.clear();
     reader_.clear();
     is_sorting_ = false;
     const bool has_more = end != rays_.count;
-    const float most_layers = has_more ? kMostBatchLayers : kMostLayers;
     std::size_t next_look = 16 * kMostRays;
     for (std::size_t done = 0; done < end - begin; done += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end - begin - done));
@@ -67,9 +67,6 @@ class LightRays {
   const ViewErrors& errors() const { return errors_; }
 
  private:
-  static constexpr float kMostLayers = 5;
-  /// Of a batch: with more rays there will be more.
-  static constexpr float kMostBatchLayers = 3.5f;
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
 

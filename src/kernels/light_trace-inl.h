@@ -60,6 +60,9 @@ class LightTrace {
   static constexpr std::size_t kManyRays = 3u << 14;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
   static constexpr std::size_t kBatchRays = 1u << 17;
+  /// From so many layers of groups on, rays are sorted; of a first batch fewer say that there will be so many. Where
+  /// that was in order, some places of the view may be dense without that all rays after them had better be sorted.
+  static constexpr float kMostLayers = 5, kMostFirstLayers = 3.5f, kMostLaterLayers = 16;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
@@ -71,10 +74,11 @@ class LightTrace {
     const std::size_t all = rays.rays.count;
     for (std::size_t begin = 0, end; begin < all; begin = end) {
       end = all - begin < 2 * kBatchRays ? all : begin + kBatchRays;
-      if (trace_batch(rays, begin, end, light_rays, scratch, each)) continue;
+      const float most_layers = begin > 0 ? kMostLaterLayers : end < all ? kMostFirstLayers : kMostLayers;
+      if (trace_batch(rays, begin, end, most_layers, light_rays, scratch, each)) continue;
       if (end == all) return false;
       end = all;
-      if (!trace_batch(rays, begin, end, light_rays, scratch, each)) return false;
+      if (!trace_batch(rays, begin, end, kMostLayers, light_rays, scratch, each)) return false;
     }
     deliver(rays, each);
     return true;
@@ -82,9 +86,9 @@ class LightTrace {
 
   /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all that are left, or
   /// if these are, not here.
-  bool trace_batch(const GroupRays& rays, std::size_t begin, std::size_t end, LightRays& light_rays,
+  bool trace_batch(const GroupRays& rays, std::size_t begin, std::size_t end, float most_layers, LightRays& light_rays,
                    LightViewScratch& scratch, std::vector<Counts>& each) const {
-    if (!light_rays.read(begin, end)) return false;
+    if (!light_rays.read(begin, end, most_layers)) return false;
     const auto walk = [&] {
       if constexpr (kCounts) std::fill(each.begin() + begin, each.begin() + end, Counts());
       LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);

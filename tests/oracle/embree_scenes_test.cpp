@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Real scenes: every kernel against Embree on shadow rays. Where they differ, exact arithmetic decides, and it must
-// decide for us. Embree's own errors are printed. Two kernels answer all rays, the others every tenth of them.
+// decide for us. Embree's own errors are printed. Three kernels answer all rays, the others every tenth of them, but
+// none in the largest scenes: what they are prepared with takes long to make there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,6 +86,7 @@ std::vector<Ray> edge_rays(const workload::Geometry& geometry, const workload::V
 }
 
 constexpr std::size_t kShareOfMost = 10;
+constexpr std::size_t kFewTriangles = 1'500'000;
 
 bool answers_all(const std::string& kernel) { return kernel == "auto" || kernel == "standard" || kernel == "linked"; }
 
@@ -120,16 +122,16 @@ std::size_t expect_right(const Scene& scene, const embree::EmbreeScene& embree_s
   return embree_wrong;
 }
 
-// Every kernel; returns how often Embree is wrong.
-std::size_t expect_all_right(Scene& scene, const embree::EmbreeScene& embree_scene, const oracle::BruteForce& truth,
-                             const std::vector<Ray>& rays) {
+// Every kernel, or of many triangles some; returns how often Embree is wrong.
+std::size_t expect_all_right(Scene& scene, std::size_t triangles, const embree::EmbreeScene& embree_scene,
+                             const oracle::BruteForce& truth, const std::vector<Ray>& rays) {
   const std::vector<Ray> fewer = every_tenth(rays);
   Training training;
   training.rays = {fewer.data(), fewer.size()};
   std::vector<std::string> first, others;
   for (std::size_t k = 0; k < kernel_count(); ++k) {
     const std::string kernel = kernel_info(k).name;
-    if (kernel == "brute") continue;
+    if (kernel == "brute" || (triangles > kFewTriangles && !answers_all(kernel))) continue;
     EXPECT_TRUE(scene.prepare({static_cast<int>(k)}, training).ok()) << kernel;
     (answers_all(kernel) ? first : others).push_back(kernel);
   }
@@ -161,9 +163,9 @@ TEST_P(SceneAgainstEmbree, NoKernelIsWrong) {
   ASSERT_GE(rays.size(), wanted);
 
   const oracle::BruteForce truth(geometry.triangle_list());
-  const std::size_t wrong = expect_all_right(scene, embree_scene, truth, rays);
+  const std::size_t wrong = expect_all_right(scene, geometry.triangle_count(), embree_scene, truth, rays);
   const std::vector<Ray> edges = edge_rays(geometry, viewpoint, wanted / 20);
-  const std::size_t wrong_at_edges = expect_all_right(scene, embree_scene, truth, edges);
+  const std::size_t wrong_at_edges = expect_all_right(scene, geometry.triangle_count(), embree_scene, truth, edges);
   std::cout << geometry.name << ": Embree wrong on " << wrong << " of " << rays.size() << " shadow rays, "
             << wrong_at_edges << " of " << edges.size() << " rays at edges and corners\n";
 }
