@@ -90,7 +90,7 @@ class LightTrace {
                    LightViewScratch& scratch, std::vector<Counts>& each) const {
     if (!light_rays.read(begin, end, most_layers)) return false;
     const auto walk = [&] {
-      if constexpr (kCounts) std::fill(each.begin() + begin, each.begin() + end, Counts());
+      if constexpr (kCounts) std::fill(each.data() + begin, each.data() + end, Counts());
       LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);
       if (!LightWalk(table_.bvh(), light_rays.light(), light_rays.errors(), packets, scratch).walk()) return false;
       std::memset(rays.out + begin, 0, end - begin);
