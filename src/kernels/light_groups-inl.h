@@ -72,9 +72,6 @@ class LightGroups {
  public:
   explicit LightGroups(LightViewScratch& scratch) : scratch_(scratch) {}
 
-  /// Forgets what was cut.
-  void clear() { overlap_ = Overlap(); }
-
   /// How many layers of groups there are where there are any: what is left to be gained by sorting.
   float layers() const { return overlap_.layers(); }
 

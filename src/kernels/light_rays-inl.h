@@ -18,40 +18,36 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Reads rays, and brings them into groups.
+/// Reads the rays of a batch, and brings them into groups.
 class LightRays {
  public:
-  LightRays(RaySpan rays, float scale, LightViewScratch& scratch)
+  /// From `begin` to `end`; what is named must outlive it, and the scratch forgets what it had.
+  LightRays(RaySpan rays, std::size_t begin, std::size_t end, float scale, const LightPoint& light,
+            LightViewScratch& scratch)
       : rays_(rays),
+        begin_(begin),
+        end_(end),
         scratch_(scratch),
         groups_(scratch),
-        light_(find_light(rays, scale)),
-        reader_(rays, scale, light_, scratch.odd) {}
+        reader_(rays, scale, light, scratch.odd) {}
 
-  /// Reads those from `begin` to `end`, in place of any before. If groups lie in more layers on average, all that are
-  /// left to the end of the call have to be sorted. False if these are not all, or if too many do not end where most
-  /// do.
-  bool read(std::size_t begin, std::size_t end, float most_layers) {
-    scratch_.clear(end - begin + kRowLanes);
-    groups_.clear();
-    reader_.clear();
-    is_sorting_ = false;
-    const bool has_more = end != rays_.count;
+  /// As they come, if that serves, or sorted. False if rays after them would have to be sorted too, or if too many do
+  /// not end at the light.
+  bool read(bool is_ordered) {
+    scratch_.clear(end_ - begin_ + kRowLanes);
+    is_sorting_ = !is_ordered;
     std::size_t next_look = 16 * kMostRays;
-    for (std::size_t done = 0; done < end - begin; done += kMostRays) {
-      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end - begin - done));
-      const RayRun& run = reader_.read(begin + done, count);
+    for (std::size_t done = 0; done < end_ - begin_; done += kMostRays) {
+      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end_ - begin_ - done));
+      const RayRun& run = reader_.read(begin_ + done, count);
       if (16 * scratch_.odd.size() > kMostRays + done) return false;
       for (std::uint32_t faces = run.faces; faces != 0; faces &= faces - 1) take_face(run, first_lane(faces));
       if (done < next_look || is_sorting_) continue;
-      is_sorting_ = groups_.layers() > most_layers;
-      if (is_sorting_ && has_more) return false;
       next_look *= 2;
+      if (!may_sort(kManyLayers)) return false;
     }
-    is_sorting_ = is_sorting_ || groups_.layers() > most_layers;
-    if (is_sorting_ && has_more) return false;
+    if (!may_sort(kMostLayers)) return false;
     if (is_sorting_) groups_.sort();
-    errors_ = reader_.errors();
     return true;
   }
 
@@ -63,12 +59,25 @@ class LightRays {
     return true;
   }
 
-  const LightPoint& light() const { return light_; }
-  const ViewErrors& errors() const { return errors_; }
+  ViewErrors errors() const { return reader_.errors(); }
 
  private:
+  /// More layers of groups had better be sorted: a batch in image order has 0.4 to 3.4, of foliage 8, in random order a
+  /// thousand.
+  static constexpr float kMostLayers = 5;
+  /// Before a batch is read whole: some places have more than the rest, and random order shows soon.
+  static constexpr float kManyLayers = 16;
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
+
+  /// Are rays to be sorted, from so many layers on? False if there are more than are read here.
+  bool may_sort(float most_layers) {
+    if (!is_sorting_ && groups_.layers() > most_layers) {
+      if (end_ != rays_.count) return false;
+      is_sorting_ = true;
+    }
+    return true;
+  }
 
   /// A rectangle in up to kMost parts, halves of halves.
   class Parts {
@@ -199,11 +208,10 @@ class LightRays {
   }
 
   RaySpan rays_;
+  std::size_t begin_, end_;
   LightViewScratch& scratch_;
   LightGroups groups_;
-  const LightPoint light_;
   LightReader reader_;
-  ViewErrors errors_;
   bool is_sorting_ = false;
 };
 

@@ -74,12 +74,6 @@ class LightReader {
   LightReader(RaySpan rays, float scale, const LightPoint& light, std::vector<std::uint32_t>& odd)
       : rays_(rays), scale_(scale), light_(light), odd_(odd) {}
 
-  /// Forgets the errors of all rays so far.
-  void clear() {
-    for (auto* errors : {&start_errors_, &end_errors_, &most_errors_})
-      std::fill(std::begin(*errors), std::end(*errors), 0.0f);
-  }
-
   /// At most kMostRays.
   const RayRun& read(std::size_t begin, std::uint32_t count) {
     const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));

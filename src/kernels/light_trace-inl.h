@@ -26,7 +26,7 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Of more the rest is another call's.
+/// Of a call; hosts' calls of more are several.
 inline constexpr std::size_t kMostViewRays = std::size_t{1} << 20;
 
 /// One call's view.
@@ -60,45 +60,52 @@ class LightTrace {
   static constexpr std::size_t kManyRays = 3u << 14;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
   static constexpr std::size_t kBatchRays = 1u << 17;
-  /// From so many layers of groups on, rays are sorted; of a first batch fewer say that there will be so many. Where
-  /// that was in order, some places of the view may be dense without that all rays after them had better be sorted.
-  static constexpr float kMostLayers = 5, kMostFirstLayers = 3.5f, kMostLaterLayers = 16;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 16;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
   static constexpr int kMostScale = 60;
 
-  bool trace(const GroupRays& rays, LightViewScratch& scratch) {
-    LightRays light_rays(rays.rays, power_of_two(scene_.tree->scale_exponent), scratch);
-    std::vector<Counts> each(kCounts ? rays.rays.count : 0);
+  /// What its batches share.
+  struct Call {
+    const GroupRays& rays;
+    LightViewScratch& scratch;
+    float scale;
+    LightPoint light;
+    std::vector<Counts> each;  ///< work of each ray, if it is counted
+  };
+
+  bool trace(const GroupRays& rays, LightViewScratch& scratch) const {
     const std::size_t all = rays.rays.count;
-    for (std::size_t begin = 0, end; begin < all; begin = end) {
-      end = all - begin < 2 * kBatchRays ? all : begin + kBatchRays;
-      const float most_layers = begin > 0 ? kMostLaterLayers : end < all ? kMostFirstLayers : kMostLayers;
-      if (trace_batch(rays, begin, end, most_layers, light_rays, scratch, each)) continue;
-      if (end == all) return false;
-      end = all;
-      if (!trace_batch(rays, begin, end, kMostLayers, light_rays, scratch, each)) return false;
+    const float scale = power_of_two(scene_.tree->scale_exponent);
+    Call call{rays, scratch, scale, find_light(rays.rays, scale), std::vector<Counts>(kCounts ? all : 0)};
+    std::size_t begin = 0;
+    bool is_ordered = true;
+    while (is_ordered && all - begin >= 2 * kBatchRays) {
+      is_ordered = trace_batch(call, begin, begin + kBatchRays, true);
+      if (is_ordered) begin += kBatchRays;
     }
-    deliver(rays, each);
+    if (!trace_batch(call, begin, all, is_ordered)) return false;
+    deliver(rays, call.each);
     return true;
   }
 
-  /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all that are left, or
-  /// if these are, not here.
-  bool trace_batch(const GroupRays& rays, std::size_t begin, std::size_t end, float most_layers, LightRays& light_rays,
-                   LightViewScratch& scratch, std::vector<Counts>& each) const {
-    if (!light_rays.read(begin, end, most_layers)) return false;
+  /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all after them,
+  /// sorted, or if they are the last, not here.
+  bool trace_batch(Call& call, std::size_t begin, std::size_t end, bool is_ordered) const {
+    const GroupRays& rays = call.rays;
+    LightRays light_rays(rays.rays, begin, end, call.scale, call.light, call.scratch);
+    if (!light_rays.read(is_ordered)) return false;
+    const ViewErrors errors = light_rays.errors();
     const auto walk = [&] {
-      if constexpr (kCounts) std::fill(each.data() + begin, each.data() + end, Counts());
-      LightPackets<Counts> packets(scene_, rays, light_rays.errors(), scratch, each);
-      if (!LightWalk(table_.bvh(), light_rays.light(), light_rays.errors(), packets, scratch).walk()) return false;
+      if constexpr (kCounts) std::fill(call.each.data() + begin, call.each.data() + end, Counts());
+      LightPackets<Counts> packets(scene_, rays, errors, call.scratch, call.each);
+      if (!LightWalk(table_.bvh(), call.light, errors, packets, call.scratch).walk()) return false;
       std::memset(rays.out + begin, 0, end - begin);
       packets.finish();
       return true;
     };
     if (!walk() && !(end == rays.rays.count && end - begin >= kSortedRays && light_rays.sort() && walk())) return false;
-    trace_odd(rays, scratch, each);
+    trace_odd(rays, call.scratch, call.each);
     return true;
   }
 
