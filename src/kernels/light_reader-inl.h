@@ -76,16 +76,21 @@ class LightReader {
 
   /// At most kMostRays.
   const RayRun& read(std::size_t begin, std::uint32_t count) {
-    const auto step = static_cast<std::uint32_t>(hn::Lanes(RayTag()));
+    const RayTag f;
+    const RayBitsTag n;
+    const auto step = static_cast<std::uint32_t>(hn::Lanes(f));
     run_.count = run_.faces = 0;
-    auto faces = hn::Zero(RayBitsTag());
+    Sums sums{hn::Load(f, start_errors_), hn::Load(f, end_errors_), hn::Load(f, most_errors_), hn::Zero(n)};
     for (std::uint32_t i = 0; i < count; i += step) {
       prefetch_rays(rays_, begin + i + kMostRays, step);
-      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i), faces);
+      read_lanes(load_rays(rays_, begin + i), begin + i, std::min(step, count - i), sums);
     }
-    alignas(64) std::int32_t each[kRowLanes];
-    hn::Store(faces, RayBitsTag(), each);
-    for (std::uint32_t lane = 0; lane < step; ++lane) run_.faces |= static_cast<std::uint32_t>(each[lane]);
+    hn::Store(sums.start_off, f, start_errors_);
+    hn::Store(sums.end_off, f, end_errors_);
+    hn::Store(sums.most_off, f, most_errors_);
+    alignas(64) std::int32_t faces[kRowLanes];
+    hn::Store(sums.faces, n, faces);
+    for (std::uint32_t lane = 0; lane < step; ++lane) run_.faces |= static_cast<std::uint32_t>(faces[lane]);
     return run_;
   }
 
@@ -96,61 +101,63 @@ class LightReader {
   }
 
  private:
-  HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here, hn::Vec<RayBitsTag>& faces) {
+  /// Lane by lane.
+  struct Sums {
+    RayVec start_off, end_off, most_off;  ///< largest so far
+    hn::Vec<RayBitsTag> faces;            ///< a bit for each
+  };
+
+  HWY_INLINE void read_lanes(const RayFields& rays, std::size_t first, std::uint32_t here, Sums& sums) {
     const RayTag f;
-    const RayBitsTag n;
     SeenStarts seen;
-    const auto good = see(rays, seen);
-    const auto present = hn::FirstN(f, here);
+    const bool at_once = hn::AllTrue(f, hn::Eq(rays.tmin, hn::Zero(f)));
+    const auto good = at_once ? see<true>(rays, seen) : see<false>(rays, seen);
+    const auto present = hn::FirstN(f, here), keep = hn::And(good, present);
+    if (HWY_LIKELY(hn::AllTrue(f, keep))) {
+      add<true>(seen, keep, first, sums);
+      return;
+    }
     for (std::uint32_t rest = ray_bits(hn::AndNot(good, present)); rest != 0; rest &= rest - 1)
       odd_.push_back(static_cast<std::uint32_t>(first) + first_lane(rest));
-    const auto keep = hn::And(good, present);
-    if (hn::AllFalse(f, keep)) return;
-
-    const auto raise = [&](float* most, RayVec x) {
-      hn::Store(hn::Max(hn::Load(f, most), hn::IfThenElseZero(keep, x)), f, most);
-    };
-    raise(start_errors_, seen.start_off);
-    raise(end_errors_, seen.end_off);
-    raise(most_errors_, seen.most_off);
-    faces = hn::Or(faces, hn::IfThenElseZero(hn::RebindMask(n, keep), hn::Shl(hn::Set(n, 1), seen.face)));
-    add(seen, keep, first);
+    add<false>(seen, keep, first, sums);
   }
 
-  /// Lanes of rays that end near the light.
+  /// Lanes of rays that end near the light. If all rays begin at their origins some of it is known.
+  template <bool kAtOnce>
   HWY_INLINE RayMask see(const RayFields& rays, SeenStarts& out) const {
     const RayTag f;
     const auto zero = hn::Zero(f), scale = hn::Set(f, scale_);
-    auto off = zero, start_reach = zero, direction = zero, sum = zero;
+    const auto first = hn::Mul(rays.tmin, scale), last = hn::Mul(rays.tmax, scale);
+    auto off = zero, start_reach = zero, sum = zero;
     RayVec offset[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      direction = hn::Max(direction, hn::Abs(rays.direction[k]));
       const auto origin =
           hn::Sub(hn::MulSub(rays.origin[k], scale, hn::Set(f, light_.high[k])), hn::Set(f, light_.low[k]));
-      const auto to_start = hn::Mul(hn::Mul(rays.direction[k], rays.tmin), scale);
-      const auto end = hn::Abs(hn::Add(origin, hn::Mul(hn::Mul(rays.direction[k], rays.tmax), scale)));
-      off = hn::Max(off, end);
-      start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
-      offset[k] = hn::Add(origin, to_start);
-      sum = hn::Add(sum, hn::Add(hn::Abs(offset[k]), end));
+      const auto end = hn::MulAdd(rays.direction[k], last, origin);
+      off = hn::Max(off, hn::Abs(end));
+      offset[k] = origin;
+      if constexpr (!kAtOnce) {
+        const auto to_start = hn::Mul(rays.direction[k], first);
+        start_reach = hn::Max(start_reach, hn::Add(hn::Abs(origin), hn::Abs(to_start)));
+        offset[k] = hn::Add(origin, to_start);
+      }
+      sum = hn::Add(sum, hn::Add(offset[k], end));
     }
-    const auto ax = hn::Abs(offset[0]), ay = hn::Abs(offset[1]), az = hn::Abs(offset[2]);
-    const auto depth = hn::Max(ax, hn::Max(ay, az));
+    const auto depth = hn::Max(hn::Abs(offset[0]), hn::Max(hn::Abs(offset[1]), hn::Abs(offset[2])));
+    if constexpr (kAtOnce) start_reach = depth;
     out.w = hn::Div(hn::Set(f, 1.0f), depth);
-    const auto reach = hn::MulAdd(start_reach, hn::Set(f, 0x1p-22f), off);  // with the rounding of the end
-    const auto start_error = hn::IfThenElseZero(hn::Ne(rays.tmin, zero), hn::Mul(start_reach, hn::Set(f, 0x1p-22f)));
+    const auto rounding = hn::Mul(start_reach, hn::Set(f, 0x1p-22f));
+    const auto reach = hn::Add(off, rounding);
+    const auto start_error = kAtOnce ? zero : hn::IfThenElseZero(hn::Ne(rays.tmin, zero), rounding);
     out.end_off = hn::Mul(reach, out.w);
     out.start_off = hn::Mul(start_error, out.w);
     out.most_off = hn::Add(reach, start_error);
     find_faces(offset, out);
-    // Only where the end is well away from the start, compared with how far it is off, and where denormals, which the
-    // host may flush, are too small to matter. A maximum may lose a NaN, but the sum is one then.
-    const auto between = [&](RayVec x, float low, float high) {
-      return hn::And(hn::Gt(x, hn::Set(f, low)), hn::Lt(x, hn::Set(f, high)));
-    };
-    auto good = hn::And(hn::Lt(out.end_off, hn::Set(f, 0x1p-17f)), between(depth, 0x1p-30f, 0x1p20f));
-    good = hn::And(good, hn::Lt(sum, hn::Set(f, 0x1p23f)));
-    return hn::And(good, hn::And(hn::Lt(rays.tmin, rays.tmax), between(direction, 0x1p-90f, 0x1p30f)));
+    // Only where the end is well away from the start, compared with how far it is off; and where times are so large
+    // that directions are small, so that what is lost to denormals is too. A maximum may lose a NaN, a sum does not.
+    auto good = hn::And(hn::Lt(out.end_off, hn::Set(f, 0x1p-17f)), hn::Gt(depth, hn::Set(f, 0x1p-30f)));
+    good = hn::And(good, hn::And(hn::Lt(depth, hn::Set(f, 0x1p20f)), hn::Lt(sum, hn::Set(f, 0x1p23f))));
+    return hn::And(good, hn::And(hn::Lt(rays.tmin, rays.tmax), hn::Gt(last, hn::Set(f, 0x1p-70f))));
   }
 
   static HWY_INLINE void find_faces(const RayVec (&offset)[3], SeenStarts& out) {
@@ -167,17 +174,25 @@ class LightReader {
     out.face = hn::Add(axis, hn::IfThenElseZero(hn::RebindMask(n, hn::Lt(main, hn::Zero(f))), hn::Set(n, 1)));
   }
 
-  HWY_INLINE void add(const SeenStarts& seen, RayMask keep, std::size_t first) {
+  /// The lanes to keep, which may be all.
+  template <bool kAll>
+  HWY_INLINE void add(const SeenStarts& seen, RayMask keep, std::size_t first, Sums& sums) {
     const RayTag f;
     const RayBitsTag n;
-    const auto whole = hn::RebindMask(n, keep);
-    hn::StoreU(hn::Compress(seen.u, keep), f, run_.u + run_.count);
-    hn::StoreU(hn::Compress(seen.v, keep), f, run_.v + run_.count);
-    hn::StoreU(hn::Compress(seen.w, keep), f, run_.w + run_.count);
-    hn::StoreU(hn::Compress(seen.face, whole), n, run_.face + run_.count);
-    const auto name = hn::Add(hn::Iota(n, 0), hn::Set(n, static_cast<std::int32_t>(first)));
-    hn::StoreU(hn::Compress(name, whole), n, run_.name + run_.count);
-    run_.count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
+    const auto or_zero = [&](auto tag, auto x) { return kAll ? x : hn::IfThenElseZero(hn::RebindMask(tag, keep), x); };
+    sums.start_off = hn::Max(sums.start_off, or_zero(f, seen.start_off));
+    sums.end_off = hn::Max(sums.end_off, or_zero(f, seen.end_off));
+    sums.most_off = hn::Max(sums.most_off, or_zero(f, seen.most_off));
+    sums.faces = hn::Or(sums.faces, or_zero(n, hn::Shl(hn::Set(n, 1), seen.face)));
+    const auto put = [&](auto tag, auto x, auto* row) {
+      hn::StoreU(kAll ? x : hn::Compress(x, hn::RebindMask(tag, keep)), tag, row + run_.count);
+    };
+    put(f, seen.u, run_.u);
+    put(f, seen.v, run_.v);
+    put(f, seen.w, run_.w);
+    put(n, seen.face, run_.face);
+    put(n, hn::Add(hn::Iota(n, 0), hn::Set(n, static_cast<std::int32_t>(first))), run_.name);
+    run_.count += static_cast<std::uint32_t>(kAll ? hn::Lanes(f) : hn::CountTrue(f, keep));
   }
 
   RaySpan rays_;
