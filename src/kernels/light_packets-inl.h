@@ -29,36 +29,52 @@ namespace HWY_NAMESPACE {
 /// A packet's rays, and what is found of them.
 struct PacketLanes {
   RayVec u, v, w;
-  RayMask blocked, open;  ///< rays may be both, and are blocked then
+  RayMask blocked;
 
   HWY_INLINE PacketLanes(const LightViewScratch& rays, const LightPacket& p) : blocked(lane_mask(p.blocked)) {
     const RayTag f;
     u = hn::LoadU(f, rays.u.data() + p.first);
     v = hn::LoadU(f, rays.v.data() + p.first);
     w = hn::LoadU(f, rays.w.data() + p.first);
-    open = hn::MaskFromVec(hn::Zero(f));
+  }
+};
+
+/// Bounds of the values of triangles for all rays of a group.
+struct GroupErrors {
+  alignas(64) float edge[kRowLanes], plane[kRowLanes];
+
+  HWY_INLINE GroupErrors(const LightTriangles& t, const RayGroup& group) {
+    const RayTag f;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      const auto bound = [&](const float(&rows)[2][kRowLanes], float scale) {
+        return hn::MulAdd(hn::Load(f, rows[1] + i), hn::Set(f, scale), hn::Load(f, rows[0] + i));
+      };
+      hn::Store(bound(t.edge_error, group.reach), f, edge + i);
+      hn::Store(bound(t.plane_error, group.nearest), f, plane + i);
+    }
   }
 };
 
 /// One triangle, in all lanes.
 class TriangleTest {
  public:
-  HWY_INLINE TriangleTest(const LightTriangles& t, std::uint32_t lane, const RayGroup& group) {
+  HWY_INLINE TriangleTest(const LightTriangles& t, std::uint32_t lane, const GroupErrors& errors) {
     const RayTag f;
     for (std::uint32_t k = 0; k < 3; ++k) {
       for (std::uint32_t e = 0; e < 3; ++e) edge_[e][k] = hn::Set(f, t.edge[e][k][lane]);
       plane_[k] = hn::Set(f, t.plane[k][lane]);
     }
-    edge_error_ = hn::Set(f, t.edge_error[0][lane] + t.edge_error[1][lane] * group.reach);
-    plane_error_ = hn::Set(f, t.plane_error[0][lane] + t.plane_error[1][lane] * group.nearest);
+    edge_error_ = hn::Set(f, errors.edge[lane]);
+    plane_error_ = hn::Set(f, errors.plane[lane]);
   }
 
-  /// Lanes that surely hit, and those that may.
-  HWY_INLINE void operator()(const PacketLanes& p, RayMask& hit, RayMask& open) const {
+  /// Lanes hit surely where `sure` is positive, and may hit where `open` is not negative: the signs of a difference and
+  /// of a sum are those of real numbers.
+  HWY_INLINE void operator()(const PacketLanes& p, RayVec& sure, RayVec& open) const {
     const auto inner = hn::Min(edge(0, p), hn::Min(edge(1, p), edge(2, p)));
     const auto before = hn::Sub(linear(plane_, p), p.w);
-    hit = hn::And(hn::Gt(inner, edge_error_), hn::Gt(before, plane_error_));
-    open = hn::And(hn::Ge(inner, hn::Neg(edge_error_)), hn::Ge(before, hn::Neg(plane_error_)));
+    sure = hn::Min(hn::Sub(inner, edge_error_), hn::Sub(before, plane_error_));
+    open = hn::Min(hn::Add(inner, edge_error_), hn::Add(before, plane_error_));
   }
 
   /// For a plane that the light is too near to: lanes that may hit, as they pass no two edges on different sides.
@@ -200,27 +216,31 @@ class LightPackets {
 
   HWY_INLINE void test(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted, LightPacket& p,
                        std::uint32_t number) {
+    const RayTag f;
+    const GroupErrors errors(triangles, group);
     PacketLanes x(scratch_, p);
+    auto sure = hn::Set(f, -1.0f), open = sure;  // of all triangles: masks for each cost more
     for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
-      if constexpr (kCounts) count_tests(p, x.blocked);
-      RayMask hit, open;
-      TriangleTest(triangles, first_lane(rest), group)(x, hit, open);
-      x.blocked = hn::Or(x.blocked, hit);
-      x.open = hn::Or(x.open, open);
+      if constexpr (kCounts) count_tests(p, hn::Or(x.blocked, hn::Gt(sure, hn::Zero(f))));
+      RayVec sure_here, open_here;
+      TriangleTest(triangles, first_lane(rest), errors)(x, sure_here, open_here);
+      sure = hn::Max(sure, sure_here);
+      open = hn::Max(open, open_here);
     }
+    x.blocked = hn::Or(x.blocked, hn::Gt(sure, hn::Zero(f)));
     p.blocked = ray_bits(x.blocked);
-    if (HWY_UNLIKELY(!hn::AllFalse(RayTag(), hn::AndNot(x.blocked, x.open))))
-      note_open(group, triangles, wanted, p, number, x);
+    if (HWY_UNLIKELY(!hn::AllFalse(f, hn::AndNot(x.blocked, hn::Ge(open, hn::Zero(f))))))
+      note_open(errors, triangles, wanted, p, number, x);
   }
 
   /// For the end, as most are blocked by something else; where they are very many, at once.
-  HWY_NOINLINE void note_open(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
+  HWY_NOINLINE void note_open(const GroupErrors& errors, const LightTriangles& triangles, std::uint32_t wanted,
                               LightPacket& p, std::uint32_t number, const PacketLanes& x) {
     for (; wanted != 0; wanted &= wanted - 1) {
       const std::uint32_t lane = first_lane(wanted);
-      RayMask hit, open;
-      TriangleTest(triangles, lane, group)(x, hit, open);
-      const std::uint32_t rays = ray_bits(open) & ~p.blocked;
+      RayVec sure, open;
+      TriangleTest(triangles, lane, errors)(x, sure, open);
+      const std::uint32_t rays = ray_bits(hn::Ge(open, hn::Zero(RayTag()))) & ~p.blocked;
       if (rays == 0) continue;
       if (scratch_.open.size() < scratch_.ray_count)
         scratch_.open.push_back({number, rays, triangles.id[lane]});
@@ -232,16 +252,22 @@ class LightPackets {
   /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
   HWY_NOINLINE void decide(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
                            LightPacket& p) {
+    const RayTag f;
+    const GroupErrors errors(triangles, group);
     PacketLanes x(scratch_, p);
     for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
       if constexpr (kCounts) count_tests(p, x.blocked);
       const std::uint32_t lane = first_lane(rest), id = triangles.id[lane];
-      const TriangleTest test(triangles, lane, group);
-      RayMask hit = hn::MaskFromVec(hn::Zero(RayTag())), open;
-      if ((triangles.edge_on >> lane & 1) != 0)
+      const TriangleTest test(triangles, lane, errors);
+      RayMask hit = hn::MaskFromVec(hn::Zero(f)), open;
+      if ((triangles.edge_on >> lane & 1) != 0) {
         open = test.edge_on(x);
-      else
-        test(x, hit, open);
+      } else {
+        RayVec sure_here, open_here;
+        test(x, sure_here, open_here);
+        hit = hn::Gt(sure_here, hn::Zero(f));
+        open = hn::Ge(open_here, hn::Zero(f));
+      }
       const std::uint32_t hits = ray_bits(hit) & ~p.blocked;
       const std::uint32_t sure = plain_ ? hits : admitted(p, hits, id);
       p.blocked |= sure | exactly(p, ray_bits(open) & ~p.blocked & ~hits, id);
