@@ -133,7 +133,7 @@ class TriangleLanes {
       const auto product = hn::MulAdd(pick(no_bc, no_ca, bc_length, ca_length, ab_length),
                                       pick(no_bc, no_ca, ca_length, ab_length, bc_length), set(0x1p-100f));
       const auto det_error = hn::Mul(product, hn::MulAdd(set(44 * e), nearest, set(7.2f * errors_.most)));
-      const auto known = hn::Gt(hn::Abs(det), det_error);
+      const auto known = hn::Gt(hn::Abs(det), hn::Max(det_error, set(0x1p-120f)));  // so that its inverse is a float
       edge_on |= ~ray_bits(known) << i;
       const auto sign = hn::IfThenElseZero(known, hn::And(det, set(-0.0f)));
       const auto put = [&](float(&rows)[3][kRowLanes], const LaneVec3& x) {

@@ -78,6 +78,23 @@ TEST(LightView, TheLightMayChangeAfterABatch) {
   expect_as_alone(from_walls_then(rays_to_light(kTwoBatches, Vec3(-0.9f, 0.1f, 0.4f), 11)));
 }
 
+TEST(LightView, TrianglesMayBeTinyAndNextToTheLight) {
+  // One over the triple product of their vertices is no float; a large one gives the scene its size.
+  constexpr float kEdge = 0x1p-42f, kDepth = 0x1p-45f, kStart = 0x1p-28f;
+  const std::vector<Triangle> triangles{{{Vec3(0, -kEdge, -kDepth), Vec3(kEdge, 0, -kDepth), Vec3(0, kEdge, -kDepth)}},
+                                        {{Vec3(0, 0, 1), Vec3(1, 0, 1), Vec3(0, 1, 1)}}};
+  Scene scene;
+  ASSERT_TRUE(scene.add(view_of(triangles)).ok());
+  ASSERT_TRUE(scene.commit().ok());
+  std::vector<Ray> rays;
+  const auto place = [](int k) { return kStart * (static_cast<float>(k) / 8 - 1); };
+  for (int i = 0; i < 256; ++i) {
+    const float x = place(i % 16), y = place(i / 16);
+    rays.push_back({{x, y, -1.5f * kStart}, 0, {-x, -y, 1.5f * kStart}, 1});
+  }
+  expect_right(scene, rays);
+}
+
 TEST(LightView, OneWalkServesAllRays) {
   const TwoMeshes two;
   const std::vector<Ray> rays = some_rays();
