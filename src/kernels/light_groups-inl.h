@@ -97,26 +97,22 @@ class LightGroups {
   /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
   void sort() {
     overlap_ = Overlap();
+    if (scratch_.records.size() < scratch_.ray_count + kRowLanes)
+      scratch_.records = LazyArray<LightViewScratch::Record>(scratch_.ray_count + kRowLanes, Fill::nothing);
+    find_cells();
     auto& ends = scratch_.counts;
     ends.assign(kViewFaces * kCells * kCells + 1, 0);
-    for_rays([&](std::uint32_t cell, std::size_t) { ++ends[cell + 1]; });
+    const std::size_t count = scratch_.ray_count;
+    for (std::size_t i = 0; i < count; ++i) ++ends[scratch_.cells[i] + 1];
     for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
-    scratch_.records.resize(scratch_.ray_count + kRowLanes);
-    for_rays([&](std::uint32_t cell, std::size_t i) {
-      scratch_.records[ends[cell]++] = {scratch_.u[i], scratch_.v[i], scratch_.w[i], scratch_.name[i]};
-    });
-    for (std::size_t i = 0; i < scratch_.ray_count; ++i) {
-      const auto& r = scratch_.records[i];
-      scratch_.u[i] = r.u;
-      scratch_.v[i] = r.v;
-      scratch_.w[i] = r.w;
-      scratch_.name[i] = r.name;
-    }
+    for (std::size_t i = 0; i < count; ++i)
+      scratch_.records[ends[scratch_.cells[i]]++] = {scratch_.u[i], scratch_.v[i], scratch_.w[i], scratch_.name[i]};
+    take_records();
     for (auto& face : scratch_.faces) face.groups.clear();
     std::size_t first = 0;
     for (std::uint32_t cell = 0; cell + 1 < ends.size(); ++cell) {
-      const std::size_t count = ends[cell] - first;
-      if (count != 0) split(cell / (kCells * kCells), first, count, bounds(first, count), kSortedGroupRays);
+      const std::size_t here = ends[cell] - first;
+      if (here != 0) split(cell / (kCells * kCells), first, here, bounds(first, here), kSortedGroupRays);
       first = ends[cell];
     }
   }
@@ -126,21 +122,46 @@ class LightGroups {
   /// Rays that had to be sorted have little in common but their direction.
   static constexpr std::uint32_t kSortedGroupRays = 48;
 
-  static std::uint32_t spread_bits(std::uint32_t x) {  // a zero before each of 8 bits
-    x = (x | x << 4) & 0x0F0Fu;
-    x = (x | x << 2) & 0x3333u;
-    return (x | x << 1) & 0x5555u;
+  using Bits = hn::Vec<RayBitsTag>;
+
+  static HWY_INLINE Bits spread_bits(Bits x) {  // a zero before each of 8 bits
+    const RayBitsTag n;
+    x = hn::And(hn::Or(x, hn::ShiftLeft<4>(x)), hn::Set(n, 0x0F0F));
+    x = hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), hn::Set(n, 0x3333));
+    return hn::And(hn::Or(x, hn::ShiftLeft<1>(x)), hn::Set(n, 0x5555));
   }
-  template <class Each>
-  void for_rays(Each&& each) const {
-    const auto place = [](float x) {
-      return std::min(static_cast<std::uint32_t>(std::max(x + 1, 0.0f) * (0.5f * kCells)), kCells - 1);
+
+  /// Of each ray, on a curve through all cells of a face (Morton 1966).
+  void find_cells() {
+    const RayTag f;
+    const RayBitsTag n;
+    const hn::Rebind<std::uint16_t, RayTag> halves;
+    scratch_.cells.resize(scratch_.ray_count + kRowLanes);
+    const auto place = [&](RayVec x) {
+      const auto at = hn::Mul(hn::Max(hn::Add(x, hn::Set(f, 1)), hn::Zero(f)), hn::Set(f, 0.5f * kCells));
+      return spread_bits(hn::ConvertTo(n, hn::Min(at, hn::Set(f, kCells - 1))));
     };
     for (const auto& segment : scratch_.segments) {
-      const std::uint32_t base = segment.face * kCells * kCells;
-      for (std::size_t i = segment.first; i < segment.first + segment.count; ++i)
-        each(base + (spread_bits(place(scratch_.u[i])) | spread_bits(place(scratch_.v[i])) << 1), i);
+      const auto base = hn::Set(n, static_cast<std::int32_t>(segment.face * kCells * kCells));
+      for_lanes(segment.first, segment.count, [&](std::size_t i, RayMask) {
+        const auto u = place(hn::LoadU(f, scratch_.u.data() + i)), v = place(hn::LoadU(f, scratch_.v.data() + i));
+        const auto cell = hn::Add(base, hn::Or(u, hn::ShiftLeft<1>(v)));
+        hn::StoreU(hn::DemoteTo(halves, cell), halves, scratch_.cells.data() + i);
+      });
     }
+  }
+
+  /// Puts what is sorted back into columns.
+  void take_records() {
+    const RayTag f;
+    for_lanes(0, scratch_.ray_count, [&](std::size_t i, RayMask) {
+      RayVec u, v, w, name;
+      hn::LoadInterleaved4(f, &scratch_.records[i].u, u, v, w, name);
+      hn::StoreU(u, f, scratch_.u.data() + i);
+      hn::StoreU(v, f, scratch_.v.data() + i);
+      hn::StoreU(w, f, scratch_.w.data() + i);
+      hn::StoreU(hn::BitCast(RayBitsTag(), name), RayBitsTag(), scratch_.name.data() + i);
+    });
   }
 
   Rectangle bounds(std::size_t first, std::size_t count) const {

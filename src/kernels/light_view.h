@@ -137,8 +137,9 @@ struct LightViewScratch {
   Column<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
-  std::vector<Record> records;        ///< for sorting
-  std::vector<std::uint32_t> counts;  ///< for counting sorts
+  LazyArray<Record> records;          ///< for sorting, as the next two
+  std::vector<std::uint16_t> cells;   ///< by ray
+  std::vector<std::uint32_t> counts;  ///< by cell
   std::vector<float> above[3];        ///< for cutting groups
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
@@ -174,7 +175,8 @@ struct LightViewScratch {
     for (FaceGroups& face : faces) face.groups.clear();
   }
   std::uint64_t bytes() const noexcept {
-    const std::uint64_t rays = columns.size() * sizeof(RayColumns) + records.capacity() * sizeof(Record);
+    const std::uint64_t rays =
+        columns.size() * sizeof(RayColumns) + records.size() * sizeof(Record) + cells.capacity() * sizeof(cells[0]);
     return rays + shafts.bytes() + packets.capacity() * sizeof(LightPacket) + open.capacity() * sizeof(OpenRays);
   }
   std::size_t group_count() const noexcept {
