@@ -94,12 +94,35 @@ class LightGroups {
     split(face, first + lows, count - lows, high, most);
   }
 
+  /// For `sort`: the cells of rays from place `first` on, which lie on a curve through all of a face (Morton 1966).
+  HWY_INLINE void put_cells(std::size_t first, RayVec u, RayVec v, hn::Vec<RayBitsTag> face) {
+    const RayTag f;
+    const RayBitsTag n;
+    const hn::Rebind<std::uint16_t, RayTag> halves;
+    const auto place = [&](RayVec x) {
+      const auto at = hn::Mul(hn::Max(hn::Add(x, hn::Set(f, 1)), hn::Zero(f)), hn::Set(f, 0.5f * kCells));
+      return spread_bits(hn::ConvertTo(n, hn::Min(at, hn::Set(f, kCells - 1))));
+    };
+    const auto base = hn::Mul(face, hn::Set(n, kCells * kCells));
+    const auto cell = hn::Add(base, hn::Or(place(u), hn::ShiftLeft<1>(place(v))));
+    hn::StoreU(hn::DemoteTo(halves, cell), halves, scratch_.cells.data() + first);
+  }
+
+  /// Before `sort`, for rays that were read by faces; those that come later have their cells put.
+  void begin_to_sort() {
+    const RayTag f;
+    scratch_.make_room_to_sort();
+    for (const auto& segment : scratch_.segments) {
+      const auto face = hn::Set(RayBitsTag(), static_cast<std::int32_t>(segment.face));
+      for_lanes(segment.first, segment.count, [&](std::size_t i, RayMask) {
+        put_cells(i, hn::LoadU(f, scratch_.u.data() + i), hn::LoadU(f, scratch_.v.data() + i), face);
+      });
+    }
+  }
+
   /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
   void sort() {
     overlap_ = Overlap();
-    if (scratch_.records.size() < scratch_.ray_count + kRowLanes)
-      scratch_.records = LazyArray<LightViewScratch::Record>(scratch_.ray_count + kRowLanes, Fill::nothing);
-    find_cells();
     auto& ends = scratch_.counts;
     ends.assign(kViewFaces * kCells * kCells + 1, 0);
     const std::size_t count = scratch_.ray_count;
@@ -122,33 +145,11 @@ class LightGroups {
   /// Rays that had to be sorted have little in common but their direction.
   static constexpr std::uint32_t kSortedGroupRays = 48;
 
-  using Bits = hn::Vec<RayBitsTag>;
-
-  static HWY_INLINE Bits spread_bits(Bits x) {  // a zero before each of 8 bits
+  static HWY_INLINE hn::Vec<RayBitsTag> spread_bits(hn::Vec<RayBitsTag> x) {  // a zero before each of 8 bits
     const RayBitsTag n;
     x = hn::And(hn::Or(x, hn::ShiftLeft<4>(x)), hn::Set(n, 0x0F0F));
     x = hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), hn::Set(n, 0x3333));
     return hn::And(hn::Or(x, hn::ShiftLeft<1>(x)), hn::Set(n, 0x5555));
-  }
-
-  /// Of each ray, on a curve through all cells of a face (Morton 1966).
-  void find_cells() {
-    const RayTag f;
-    const RayBitsTag n;
-    const hn::Rebind<std::uint16_t, RayTag> halves;
-    scratch_.cells.resize(scratch_.ray_count + kRowLanes);
-    const auto place = [&](RayVec x) {
-      const auto at = hn::Mul(hn::Max(hn::Add(x, hn::Set(f, 1)), hn::Zero(f)), hn::Set(f, 0.5f * kCells));
-      return spread_bits(hn::ConvertTo(n, hn::Min(at, hn::Set(f, kCells - 1))));
-    };
-    for (const auto& segment : scratch_.segments) {
-      const auto base = hn::Set(n, static_cast<std::int32_t>(segment.face * kCells * kCells));
-      for_lanes(segment.first, segment.count, [&](std::size_t i, RayMask) {
-        const auto u = place(hn::LoadU(f, scratch_.u.data() + i)), v = place(hn::LoadU(f, scratch_.v.data() + i));
-        const auto cell = hn::Add(base, hn::Or(u, hn::ShiftLeft<1>(v)));
-        hn::StoreU(hn::DemoteTo(halves, cell), halves, scratch_.cells.data() + i);
-      });
-    }
   }
 
   /// Puts what is sorted back into columns.

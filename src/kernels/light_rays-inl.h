@@ -35,14 +35,18 @@ class LightRays {
   /// not end at the light.
   bool read(bool is_ordered) {
     scratch_.clear(end_ - begin_ + kRowLanes);
-    is_sorting_ = !is_ordered;
+    if (!is_ordered) begin_to_sort();
     std::size_t next_look = 16 * kMostRays;
     for (std::size_t done = 0; done < end_ - begin_; done += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end_ - begin_ - done));
       const RayRun& run = reader_.read(begin_ + done, count);
       if (16 * scratch_.odd.size() > kMostRays + done) return false;
+      if (is_sorting_) {
+        take_run(run);
+        continue;
+      }
       for (std::uint32_t faces = run.faces; faces != 0; faces &= faces - 1) take_face(run, first_lane(faces));
-      if (done < next_look || is_sorting_) continue;
+      if (done < next_look) continue;
       next_look *= 2;
       if (!may_sort(kManyLayers)) return false;
     }
@@ -54,7 +58,7 @@ class LightRays {
   /// Sorts what was read, which may cost less to walk then. False if it is sorted.
   bool sort() {
     if (is_sorting_) return false;
-    is_sorting_ = true;
+    begin_to_sort();
     groups_.sort();
     return true;
   }
@@ -70,11 +74,16 @@ class LightRays {
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
 
+  void begin_to_sort() {
+    is_sorting_ = true;
+    groups_.begin_to_sort();
+  }
+
   /// Are rays to be sorted, from so many layers on? False if there are more than are read here.
   bool may_sort(float most_layers) {
     if (!is_sorting_ && groups_.layers() > most_layers) {
       if (end_ != rays_.count) return false;
-      is_sorting_ = true;
+      begin_to_sort();
     }
     return true;
   }
@@ -115,6 +124,22 @@ class LightRays {
     float by_u_, by_v_;
   };
 
+  /// As it is, to be sorted.
+  void take_run(const RayRun& run) {
+    const RayTag f;
+    const RayBitsTag n;
+    const std::size_t first = scratch_.ray_count;
+    for_lanes(0, run.count, [&](std::size_t i, RayMask) {
+      const auto u = hn::Load(f, run.u + i), v = hn::Load(f, run.v + i);
+      hn::StoreU(u, f, scratch_.u.data() + first + i);
+      hn::StoreU(v, f, scratch_.v.data() + first + i);
+      hn::StoreU(hn::Load(f, run.w + i), f, scratch_.w.data() + first + i);
+      hn::StoreU(hn::Load(n, run.name + i), n, scratch_.name.data() + first + i);
+      groups_.put_cells(first + i, u, v, hn::Load(n, run.face + i));
+    });
+    scratch_.ray_count += run.count;
+  }
+
   /// Picks the run's rays of a face, and cuts them into groups: as many equal parts of their rectangle as may do, which
   /// are cut further where they do not.
   void take_face(const RayRun& run, std::uint32_t number) {
@@ -130,7 +155,7 @@ class LightRays {
     });
     scratch_.segments.push_back({number, scratch_.ray_count, count});
     const Rectangle whole = spread.get();
-    const Parts parts(whole, is_sorting_ ? 1 : count / kPartRays);
+    const Parts parts(whole, count / kPartRays);
     alignas(64) std::uint8_t part_of[kMostRays + kRowLanes];
     for_lanes(0, run.count, [&](std::size_t i, RayMask use) {
       const auto keep = hn::And(hn::RebindMask(n, use), hn::Eq(hn::Load(n, run.face + i), wanted));
@@ -146,7 +171,7 @@ class LightRays {
       rectangles[part] = take_part(run, RunBits(part_of, run.count, static_cast<std::uint8_t>(part)));
       ends[part] = scratch_.ray_count;
     }
-    for (std::uint32_t part = 0; part < parts.count() && !is_sorting_; ++part) {
+    for (std::uint32_t part = 0; part < parts.count(); ++part) {
       if (ends[part] != first) groups_.split(number, first, ends[part] - first, rectangles[part], kGroupRays);
       first = ends[part];
     }

@@ -138,7 +138,7 @@ struct LightViewScratch {
   std::size_t ray_count = 0;
   std::vector<Segment> segments;
   LazyArray<Record> records;          ///< for sorting, as the next two
-  std::vector<std::uint16_t> cells;   ///< by ray
+  LazyArray<std::uint16_t> cells;     ///< by ray
   std::vector<std::uint32_t> counts;  ///< by cell
   std::vector<float> above[3];        ///< for cutting groups
   std::vector<std::int32_t> above_name;
@@ -174,9 +174,15 @@ struct LightViewScratch {
     segments.clear();
     for (FaceGroups& face : faces) face.groups.clear();
   }
+  /// For as many rays as there is room for.
+  void make_room_to_sort() {
+    if (cells.size() >= columns.size()) return;
+    records = LazyArray<Record>(columns.size(), Fill::nothing);
+    cells = LazyArray<std::uint16_t>(columns.size(), Fill::nothing);
+  }
   std::uint64_t bytes() const noexcept {
     const std::uint64_t rays =
-        columns.size() * sizeof(RayColumns) + records.size() * sizeof(Record) + cells.capacity() * sizeof(cells[0]);
+        columns.size() * sizeof(RayColumns) + records.size() * sizeof(Record) + cells.size() * sizeof(cells[0]);
     return rays + shafts.bytes() + packets.capacity() * sizeof(LightPacket) + open.capacity() * sizeof(OpenRays);
   }
   std::size_t group_count() const noexcept {
