@@ -46,13 +46,18 @@ struct GroupErrors {
   HWY_INLINE GroupErrors(const LightTriangles& t, const RayGroup& group) {
     const RayTag f;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      const auto bound = [&](const float(&rows)[2][kRowLanes], float scale) {
-        return hn::MulAdd(hn::Load(f, rows[1] + i), hn::Set(f, scale), hn::Load(f, rows[0] + i));
-      };
-      hn::Store(bound(t.edge_error, group.reach), f, edge + i);
-      hn::Store(bound(t.plane_error, group.nearest), f, plane + i);
+      hn::Store(error_bound(t.edge_error, i, group.reach), f, edge + i);
+      hn::Store(error_bound(t.plane_error, i, group.nearest), f, plane + i);
     }
   }
+};
+
+/// How sure hits are: the signs of a difference and of a sum are those of real numbers.
+struct HitMargins {
+  RayVec sure, open;
+
+  RayMask hit() const { return hn::Gt(sure, hn::Zero(RayTag())); }
+  RayMask may_hit() const { return hn::Ge(open, hn::Zero(RayTag())); }  ///< those that hit too
 };
 
 /// One triangle, in all lanes.
@@ -68,13 +73,11 @@ class TriangleTest {
     plane_error_ = hn::Set(f, errors.plane[lane]);
   }
 
-  /// Lanes hit surely where `sure` is positive, and may hit where `open` is not negative: the signs of a difference and
-  /// of a sum are those of real numbers.
-  HWY_INLINE void operator()(const PacketLanes& p, RayVec& sure, RayVec& open) const {
+  HWY_INLINE HitMargins operator()(const PacketLanes& p) const {
     const auto inner = hn::Min(edge(0, p), hn::Min(edge(1, p), edge(2, p)));
     const auto before = hn::Sub(linear(plane_, p), p.w);
-    sure = hn::Min(hn::Sub(inner, edge_error_), hn::Sub(before, plane_error_));
-    open = hn::Min(hn::Add(inner, edge_error_), hn::Add(before, plane_error_));
+    return {hn::Min(hn::Sub(inner, edge_error_), hn::Sub(before, plane_error_)),
+            hn::Min(hn::Add(inner, edge_error_), hn::Add(before, plane_error_))};
   }
 
   /// For a plane that the light is too near to: lanes that may hit, as they pass no two edges on different sides.
@@ -219,17 +222,15 @@ class LightPackets {
     const RayTag f;
     const GroupErrors errors(triangles, group);
     PacketLanes x(scratch_, p);
-    auto sure = hn::Set(f, -1.0f), open = sure;  // of all triangles: masks for each cost more
+    HitMargins most{hn::Set(f, -1.0f), hn::Set(f, -1.0f)};  // of all triangles: masks for each cost more
     for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
-      if constexpr (kCounts) count_tests(p, hn::Or(x.blocked, hn::Gt(sure, hn::Zero(f))));
-      RayVec sure_here, open_here;
-      TriangleTest(triangles, first_lane(rest), errors)(x, sure_here, open_here);
-      sure = hn::Max(sure, sure_here);
-      open = hn::Max(open, open_here);
+      if constexpr (kCounts) count_tests(p, hn::Or(x.blocked, most.hit()));
+      const HitMargins here = TriangleTest(triangles, first_lane(rest), errors)(x);
+      most = {hn::Max(most.sure, here.sure), hn::Max(most.open, here.open)};
     }
-    x.blocked = hn::Or(x.blocked, hn::Gt(sure, hn::Zero(f)));
+    x.blocked = hn::Or(x.blocked, most.hit());
     p.blocked = ray_bits(x.blocked);
-    if (HWY_UNLIKELY(!hn::AllFalse(f, hn::AndNot(x.blocked, hn::Ge(open, hn::Zero(f))))))
+    if (HWY_UNLIKELY(!hn::AllFalse(f, hn::AndNot(x.blocked, most.may_hit()))))
       note_open(errors, triangles, wanted, p, number, x);
   }
 
@@ -238,9 +239,7 @@ class LightPackets {
                               LightPacket& p, std::uint32_t number, const PacketLanes& x) {
     for (; wanted != 0; wanted &= wanted - 1) {
       const std::uint32_t lane = first_lane(wanted);
-      RayVec sure, open;
-      TriangleTest(triangles, lane, errors)(x, sure, open);
-      const std::uint32_t rays = ray_bits(hn::Ge(open, hn::Zero(RayTag()))) & ~p.blocked;
+      const std::uint32_t rays = ray_bits(TriangleTest(triangles, lane, errors)(x).may_hit()) & ~p.blocked;
       if (rays == 0) continue;
       if (scratch_.open.size() < scratch_.ray_count)
         scratch_.open.push_back({number, rays, triangles.id[lane]});
@@ -252,25 +251,18 @@ class LightPackets {
   /// Ray by ray where that is needed: what is open is decided exactly, and what is skipped or seen through left out.
   HWY_NOINLINE void decide(const RayGroup& group, const LightTriangles& triangles, std::uint32_t wanted,
                            LightPacket& p) {
-    const RayTag f;
     const GroupErrors errors(triangles, group);
     PacketLanes x(scratch_, p);
     for (std::uint32_t rest = wanted; rest != 0; rest &= rest - 1) {
       if constexpr (kCounts) count_tests(p, x.blocked);
       const std::uint32_t lane = first_lane(rest), id = triangles.id[lane];
       const TriangleTest test(triangles, lane, errors);
-      RayMask hit = hn::MaskFromVec(hn::Zero(f)), open;
-      if ((triangles.edge_on >> lane & 1) != 0) {
-        open = test.edge_on(x);
-      } else {
-        RayVec sure_here, open_here;
-        test(x, sure_here, open_here);
-        hit = hn::Gt(sure_here, hn::Zero(f));
-        open = hn::Ge(open_here, hn::Zero(f));
-      }
-      const std::uint32_t hits = ray_bits(hit) & ~p.blocked;
+      const bool edge_on = (triangles.edge_on >> lane & 1) != 0;
+      const HitMargins margins = test(x);
+      const std::uint32_t hits = edge_on ? 0 : ray_bits(margins.hit()) & ~p.blocked;
+      const std::uint32_t open = ray_bits(edge_on ? test.edge_on(x) : margins.may_hit()) & ~p.blocked & ~hits;
       const std::uint32_t sure = plain_ ? hits : admitted(p, hits, id);
-      p.blocked |= sure | exactly(p, ray_bits(open) & ~p.blocked & ~hits, id);
+      p.blocked |= sure | exactly(p, open, id);
       x.blocked = lane_mask(p.blocked);
     }
   }

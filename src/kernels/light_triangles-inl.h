@@ -66,6 +66,12 @@ HWY_INLINE std::uint32_t meeting(const ViewRows& rows, const ViewBox& box) {
   return result;
 }
 
+/// Bounds of values that grow with `scale`, of LightTriangles::edge_error or plane_error, from lane i on.
+HWY_INLINE RayVec error_bound(const float (&rows)[2][kRowLanes], std::uint32_t i, float scale) {
+  const RayTag f;
+  return hn::MulAdd(hn::Load(f, rows[1] + i), hn::Set(f, scale), hn::Load(f, rows[0] + i));
+}
+
 /// Sixteen triangles and one light.
 class TriangleLanes {
  public:

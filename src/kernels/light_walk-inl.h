@@ -47,15 +47,13 @@ class GroupTest {
       const std::uint32_t known = ~(t.edge_on >> i);
       // The plane first: most of what is near a group is the surface that its rays start from.
       const auto pu = hn::Load(f, t.plane[0] + i), pv = hn::Load(f, t.plane[1] + i), pw = hn::Load(f, t.plane[2] + i);
-      const auto plane_error =
-          hn::MulAdd(hn::Load(f, t.plane_error[1] + i), nearest, hn::Load(f, t.plane_error[0] + i));
+      const auto plane_error = error_bound(t.plane_error, i, group_.nearest);
       const auto du = hn::Sub(pu, slope_u), dv = hn::Sub(pv, slope_v);
       const auto before = hn::MulAdd(du, u, hn::MulAdd(dv, v, hn::Sub(pw, base)));
       const auto slack = hn::MulAdd(hn::Abs(du), half_u, hn::MulAdd(hn::Abs(dv), half_v, plane_error));
       const std::uint32_t open = some & ~(ray_bits(hn::Lt(hn::Add(before, slack), hn::Zero(f))) & known);
 
-      const auto error =
-          hn::MulAdd(hn::Load(f, t.edge_error[1] + i), hn::Set(f, group_.reach), hn::Load(f, t.edge_error[0] + i));
+      const auto error = error_bound(t.edge_error, i, group_.reach);
       auto least_high = hn::Set(f, std::numeric_limits<float>::infinity()), most_low = hn::Neg(least_high);
       auto least_low = least_high;
       for (const auto& edge : t.edge) {

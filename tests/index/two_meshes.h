@@ -45,12 +45,9 @@ inline std::vector<Primitive> first_met(const Scene& scene, const std::vector<Ra
   return met;
 }
 
-/// As `brute` answers each, on every instruction set.
-inline void expect_right(const Scene& scene, const std::vector<Ray>& rays, QueryOptions options = {}) {
-  std::vector<std::uint8_t> truth(rays.size());
-  QueryOptions brute = options;
-  ASSERT_TRUE(find_kernel("brute", brute.kernel).ok());
-  scene.occluded(RaySpan{rays.data(), rays.size()}, truth.data(), brute);
+/// In one call, counted or not, on every instruction set.
+inline void expect_answers(const Scene& scene, const std::vector<Ray>& rays, const std::vector<std::uint8_t>& truth,
+                           QueryOptions options = {}) {
   const auto occluded = std::count(truth.begin(), truth.end(), std::uint8_t{1});
   EXPECT_GT(occluded, 0);
   EXPECT_LT(occluded, static_cast<std::ptrdiff_t>(rays.size()));
@@ -68,6 +65,15 @@ inline void expect_right(const Scene& scene, const std::vector<Ray>& rays, Query
     EXPECT_EQ(counts.unoccluded.rays, rays.size() - static_cast<std::size_t>(occluded));
   }
   ASSERT_TRUE(use_simd_target(nullptr).ok());
+}
+
+/// As `brute` answers each.
+inline void expect_right(const Scene& scene, const std::vector<Ray>& rays, QueryOptions options = {}) {
+  std::vector<std::uint8_t> truth(rays.size());
+  QueryOptions brute = options;
+  ASSERT_TRUE(find_kernel("brute", brute.kernel).ok());
+  scene.occluded(RaySpan{rays.data(), rays.size()}, truth.data(), brute);
+  expect_answers(scene, rays, truth, options);
 }
 
 }  // namespace umbrix::detail
