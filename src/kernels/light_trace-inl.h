@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -41,7 +42,8 @@ class LightTrace {
     if (rays.rays.count < kFewestRays || rays.rays.count > kMostViewRays) return false;
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || table_.bvh().empty()) return false;
     const DefaultFloatMode mode;
-    if (rays.rays.count < kManyRays && !start_densely(rays.rays, *scene_.tree)) return false;
+    const std::size_t many = std::max(kManyRays, scene_.kept_count / kTrianglesOfRay);
+    if (rays.rays.count < many && !start_densely(rays.rays, *scene_.tree)) return false;
     try {
       std::unique_ptr<LightViewScratch> scratch = table_.borrow();
       const bool is_done = trace(rays, *scratch);
@@ -56,12 +58,13 @@ class LightTrace {
   static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
   /// Fewer rays cost less otherwise.
   static constexpr std::size_t kFewestRays = 128;
-  /// So many are near each other wherever they start; fewer that start far apart had better walk alone.
-  static constexpr std::size_t kManyRays = 3u << 14;
+  /// So many, and one for so many triangles, are near each other wherever they start; fewer that start far apart had
+  /// better walk alone.
+  static constexpr std::size_t kManyRays = 1u << 13, kTrianglesOfRay = 32;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
   static constexpr std::size_t kBatchRays = 1u << 17;
   /// Sorting pays where many rays come to each direction.
-  static constexpr std::size_t kSortedRays = 1u << 16;
+  static constexpr std::size_t kSortedRays = 1u << 14;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
   static constexpr int kMostScale = 60;
 

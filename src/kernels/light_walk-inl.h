@@ -116,7 +116,7 @@ class LightWalk {
  private:
   static constexpr bool kCounts = Packets::kCounts;
   /// So many times a triangle may meet a group for each ray.
-  static constexpr std::size_t kMostMet = 8;
+  static constexpr std::size_t kMostMet = 64;
 
   /// Meets no group.
   static constexpr ViewBox kNothing{1, -1, 1, -1, -1};

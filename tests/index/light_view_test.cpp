@@ -54,7 +54,7 @@ std::vector<Ray> from_walls(std::size_t count) {
 
 TEST(LightView, ManyRaysFromEverywhereAreSorted) {
   // So many that they come in an order that the light cannot use, and are brought into one.
-  expect_as_alone(rays_to_light(100000, kLight, 9));
+  for (const std::size_t count : {10000u, 100000u}) expect_as_alone(rays_to_light(count, kLight, 9));
 }
 
 /// The rays from a batch's end on are others.
@@ -91,14 +91,15 @@ TEST(LightView, TrianglesMayBeTinyAndNextToTheLight) {
 
 TEST(LightView, OneWalkServesAllRays) {
   const TwoMeshes two;
-  const std::vector<Ray> rays = some_rays();
-  std::vector<std::uint8_t> answers(rays.size());
-  OcclusionCounts together, alone;
-  two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data(), together);
   QueryOptions standard;
   ASSERT_TRUE(find_kernel("standard", standard.kernel).ok());
-  two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data(), alone, standard);
-  EXPECT_LT(2 * together.unoccluded.node_tests, alone.unoccluded.node_tests);
+  for (const std::vector<Ray>& rays : {some_rays(), rays_to_light(30000, kLight, 9)}) {
+    std::vector<std::uint8_t> answers(rays.size());
+    OcclusionCounts together, alone;
+    two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data(), together);
+    two.scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data(), alone, standard);
+    EXPECT_LT(2 * together.unoccluded.node_tests, alone.unoccluded.node_tests) << rays.size() << " rays";
+  }
 }
 
 }  // namespace
