@@ -58,8 +58,8 @@ class LightTrace {
   static constexpr bool kCounts = !std::is_same_v<Counts, NoCounts>;
   /// Fewer rays cost less otherwise.
   static constexpr std::size_t kFewestRays = 128;
-  /// So many, and one for so many triangles, are near each other wherever they start; fewer that start far apart had
-  /// better walk alone.
+  /// So many, and at least one for so many triangles, are near each other wherever they start; fewer that start far
+  /// apart had better walk alone.
   static constexpr std::size_t kManyRays = 1u << 13, kTrianglesOfRay = 32;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
   static constexpr std::size_t kBatchRays = 1u << 17;
