@@ -17,6 +17,7 @@
 #include "index/instance_tree.h"
 #include "kernels/instanced.h"
 #include "kernels/kernel.h"
+#include "kernels/ray_blocks.h"
 #include "tree/lazy_tree.h"
 
 namespace umbrix {
@@ -309,8 +310,15 @@ void Scene::occluded(RaySpan rays, std::uint8_t* out, const QueryOptions& option
     std::fill(out, out + rays.count, std::uint8_t{0});
     return;
   }
-  impl_->entry_points(options.kernel).occluded(impl_->view_for(options.kernel), rays, out, options);
-  if (!impl_->instances.empty()) detail::add_instances(impl_->instances, rays, out, options);
+  const detail::SceneView& view = impl_->view_for(options.kernel);
+  const detail::EntryPoints& kernel = impl_->entry_points(options.kernel);
+  const bool is_shared = options.executor && kernel.shares_occluded;
+  if (is_shared) kernel.occluded(view, rays, out, options);
+  if (is_shared && impl_->instances.empty()) return;
+  detail::for_blocks(rays, options, [&](RaySpan block, std::size_t first, const QueryOptions& here) {
+    if (!is_shared) kernel.occluded(view, block, out + first, here);
+    if (!impl_->instances.empty()) detail::add_instances(impl_->instances, block, out + first, here);
+  });
 }
 
 void Scene::occluded(RaySpan rays, std::uint8_t* out, OcclusionCounts& counts,
@@ -333,8 +341,12 @@ void Scene::closest(RaySpan rays, Hit* out, const QueryOptions& options) const n
     std::fill(out, out + rays.count, Hit{});
     return;
   }
-  impl_->entry_points(options.kernel).closest(impl_->view_for(options.kernel), rays, out, options);
-  if (!impl_->instances.empty()) detail::add_closest_instances(impl_->instances, impl_->view, rays, out, options);
+  const detail::SceneView& view = impl_->view_for(options.kernel);
+  detail::for_blocks(rays, options, [&](RaySpan block, std::size_t first, const QueryOptions& here) {
+    impl_->entry_points(options.kernel).closest(view, block, out + first, here);
+    if (!impl_->instances.empty())
+      detail::add_closest_instances(impl_->instances, impl_->view, block, out + first, here);
+  });
 }
 
 void Scene::closest(RaySpan rays, Hit* out, RayCounts& counts, const QueryOptions& options) const noexcept {

@@ -102,6 +102,9 @@ struct ShadowTile {
   const Pixel* pixels = nullptr;  ///< of each ray; needed by PredictorKey::screen, which else predicts nothing
   RayRoute* routes = nullptr;     ///< if given, receives each ray's route
   RayCounts* each = nullptr;      ///< if given, receives each ray's work; slower
+  /// Shares many rays that are answered as the light sees them among its threads; Executor{} is oneTBB. Null, and where
+  /// work is counted: the thread that calls does all.
+  const Executor* executor = nullptr;
 };
 
 /// Rays by what was predicted and what was true.

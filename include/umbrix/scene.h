@@ -43,6 +43,9 @@ struct QueryOptions {
   std::uint32_t mask = 0xFFFFFFFFu;  ///< meshes with (mesh mask & mask) == 0 are not there
   const Primitive* skip = nullptr;   ///< one for each ray: a triangle that is not there for that ray; or null
   KernelId kernel;                   ///< default: the recommended one
+  /// Shares calls of many rays among its threads; Executor{} is oneTBB. Null, and where work is counted: the thread
+  /// that calls does all.
+  const Executor* executor = nullptr;
 };
 
 /// Rays like those to come, for kernels that learn from them. Others use the executor only.

@@ -2,9 +2,12 @@
 #include "core/parallel_for.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
+#include <thread>
 
 #include "core/threads_executor.h"
 
@@ -41,6 +44,14 @@ void parallel_for(const Executor* executor, std::size_t count, const std::functi
   GuardedBody guarded{body, nullptr, {}};
   executor->parallel_for(executor->context, count, &GuardedBody::call, &guarded);
   if (guarded.first) std::rethrow_exception(guarded.first);
+}
+
+std::size_t thread_count(const Executor* executor) noexcept {
+  if (executor && executor->threads != 0) return executor->threads;
+  const bool is_tbb = !executor || !executor->parallel_for;
+  const auto count = is_tbb ? static_cast<unsigned>(std::max(1, tbb::this_task_arena::max_concurrency()))
+                            : std::thread::hardware_concurrency();
+  return std::max(1u, count);
 }
 
 Status parallel_failure(const char* who, const Executor* executor, const std::exception& error) noexcept try {

@@ -29,7 +29,7 @@ void run(void*, std::size_t count, void (*body)(void*, std::size_t), void* data)
 }  // namespace
 
 const Executor& threads_executor() noexcept {
-  static const Executor executor = {&run, nullptr};
+  static const Executor executor = {&run, nullptr, kThreads};
   return executor;
 }
 

@@ -223,6 +223,7 @@ void FrameTracer::Impl::trace(const ShadowTile& tile, std::uint8_t* out) {
   work.rays.each = tile.each;
   work.rays.sums = sums ? &*sums : nullptr;
   work.rays.route_rays = routes;
+  work.rays.executor = tile.executor;
   instances ? detail::trace_tile(*instances, work) : detail::trace_tile(work);
   if (!in_frame) return;
 

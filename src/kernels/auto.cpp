@@ -16,6 +16,7 @@
 #include "kernels/closest_trace-inl.h"
 #include "kernels/light_trace-inl.h"
 #include "kernels/near_rays.h"
+#include "kernels/ray_blocks.h"
 #include "kernels/shaft_trace-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,9 +29,14 @@ struct AutoKernel {
 
   static void occluded(const SceneView& scene, RaySpan rays, std::uint8_t* out, const QueryOptions& options) {
     for_parts(rays, options, [&](RaySpan part, std::size_t begin, const QueryOptions& here) {
-      const GroupRays group{part, out + begin, here.skip, here.mask};
-      if (trace_shafts(scene, group) || trace<NoCounts>(scene, group)) return;
-      answer_others(scene, part, out + begin, here);
+      GroupRays shared{part, out + begin, here.skip, here.mask};
+      shared.executor = here.executor;
+      if (here.executor && trace<NoCounts>(scene, shared)) return;
+      for_blocks(part, here, [&](RaySpan block, std::size_t first, const QueryOptions& its) {
+        const GroupRays group{block, out + begin + first, its.skip, its.mask};
+        if (trace_shafts(scene, group) || trace<NoCounts>(scene, group)) return;
+        answer_others(scene, block, out + begin + first, its);
+      });
     });
   }
 
@@ -114,7 +120,7 @@ struct AutoKernel {
 
 const EntryPoints& auto_entry_points() {
   static constexpr EntryPoints kEntryPoints = {&AutoKernel::occluded, &AutoKernel::occluded_counted,
-                                               &AutoKernel::closest, &AutoKernel::closest_counted};
+                                               &AutoKernel::closest, &AutoKernel::closest_counted, true};
   return kEntryPoints;
 }
 

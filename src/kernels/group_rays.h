@@ -30,6 +30,7 @@ struct GroupRays {
   RayCounts* each = nullptr;   ///< one a ray, or null; of groups that count, like the next
   WorkSums* sums = nullptr;
   std::uint64_t* route_rays = nullptr;  ///< by route, or null
+  const Executor* executor = nullptr;   ///< what may share the work; null: the calling thread alone
 
   bool counts() const noexcept { return each || sums; }
 };

@@ -12,11 +12,14 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <cstring>
-#include <new>
+#include <exception>
+#include <vector>
 
 #include "core/float_mode.h"
+#include "core/parallel_for.h"
 #include "kernels/bvh_kernel-inl.h"
 #include "kernels/light_packets-inl.h"
 #include "kernels/light_rays-inl.h"
@@ -45,11 +48,10 @@ class LightTrace {
     const std::size_t many = std::max(kManyRays, scene_.kept_count / kTrianglesOfRay);
     if (rays.rays.count < many && !start_densely(rays.rays, *scene_.tree)) return false;
     try {
-      std::unique_ptr<LightViewScratch> scratch = table_.borrow();
-      const bool is_done = trace(rays, *scratch);
-      table_.give_back(std::move(scratch));
-      return is_done;
-    } catch (const std::bad_alloc&) {
+      if (!kCounts && rays.executor && rays.rays.count >= 2 * kFewestSharedRays) return trace_shared(rays);
+      const BorrowedScratch scratch(table_);
+      return trace(rays, *scratch);
+    } catch (const std::exception&) {  // no memory, or no threads
       return false;
     }
   }
@@ -63,6 +65,8 @@ class LightTrace {
   static constexpr std::size_t kManyRays = 1u << 13, kTrianglesOfRay = 32;
   /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
   static constexpr std::size_t kBatchRays = 1u << 17;
+  /// Fewer are not worth a batch of their own. Threads take several, as some cost more.
+  static constexpr std::size_t kFewestSharedRays = 1u << 14, kBatchesOfThread = 4;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 14;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
@@ -74,13 +78,14 @@ class LightTrace {
     LightViewScratch& scratch;
     float scale;
     LightPoint light;
-    std::vector<Counts> each;  ///< work of each ray, if it is counted
+    std::vector<Counts>& each;  ///< work of each ray, if it is counted
   };
 
   bool trace(const GroupRays& rays, LightViewScratch& scratch) const {
     const std::size_t all = rays.rays.count;
     const float scale = power_of_two(scene_.tree->scale_exponent);
-    Call call{rays, scratch, scale, find_light(rays.rays, scale), std::vector<Counts>(kCounts ? all : 0)};
+    std::vector<Counts> each(kCounts ? all : 0);
+    const Call call{rays, scratch, scale, find_light(rays.rays, scale), each};
     std::size_t begin = 0;
     bool is_ordered = true;
     while (is_ordered && all - begin >= 2 * kBatchRays) {
@@ -88,13 +93,44 @@ class LightTrace {
       if (is_ordered) begin += kBatchRays;
     }
     if (!trace_batch(call, begin, all, is_ordered)) return false;
-    deliver(rays, call.each);
+    deliver(rays, each);
     return true;
+  }
+
+  /// The same by an executor's threads. They take the next rays as they are ready, since some cost more than others;
+  /// rays in no order cost alike, and share more the more they are.
+  bool trace_shared(const GroupRays& rays) const {
+    const std::size_t all = rays.rays.count, threads = thread_count(rays.executor);
+    const bool are_dense = start_densely(rays.rays, *scene_.tree);
+    const std::size_t share = (all + threads - 1) / threads;
+    const std::size_t size =
+        are_dense ? std::clamp(share / kBatchesOfThread, kFewestSharedRays, kBatchRays) : std::max(share, kBatchRays);
+    const float scale = power_of_two(scene_.tree->scale_exponent);
+    const LightPoint light = find_light(rays.rays, scale);
+    std::vector<Counts> none;
+    std::atomic<std::size_t> next{0};
+    std::atomic<bool> are_for_it{true},
+        are_ordered{are_dense};  // once some are not, those that come later are not tried
+    parallel_for(rays.executor, threads, [&](std::size_t) {
+      const DefaultFloatMode mode;
+      const BorrowedScratch scratch(table_);
+      const Call call{rays, *scratch, scale, light, none};
+      while (are_for_it) {
+        const std::size_t count = are_dense && !are_ordered ? 2 * size : size, begin = next.fetch_add(count);
+        if (begin >= all) break;
+        const std::size_t end = std::min(begin + count, all);
+        if (are_ordered && trace_batch(call, begin, end, true)) continue;
+        are_ordered = false;
+        if (!trace_batch(call, begin, end, false)) are_for_it = false;
+      }
+    });
+    if (are_for_it) deliver(rays, none);
+    return are_for_it;
   }
 
   /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all after them,
   /// sorted, or if they are the last, not here.
-  bool trace_batch(Call& call, std::size_t begin, std::size_t end, bool is_ordered) const {
+  bool trace_batch(const Call& call, std::size_t begin, std::size_t end, bool is_ordered) const {
     const GroupRays& rays = call.rays;
     LightRays light_rays(rays.rays, begin, end, call.scale, call.light, call.scratch);
     if (!light_rays.read(is_ordered)) return false;

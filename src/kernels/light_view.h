@@ -232,9 +232,11 @@ class LightViewTable : public SideTable {
     }
     return std::make_unique<LightViewScratch>();
   }
-  void give_back(std::unique_ptr<LightViewScratch> scratch) const {
+  /// For later calls, unless there is no memory to note it.
+  void give_back(std::unique_ptr<LightViewScratch> scratch) const noexcept try {
     const std::lock_guard<std::mutex> lock(mutex_);
     idle_.push_back(std::move(scratch));
+  } catch (const std::bad_alloc&) {
   }
 
  private:
@@ -255,6 +257,23 @@ class LightViewTable : public SideTable {
   mutable std::unique_ptr<WideTree> wide_;
   mutable std::atomic<const WideTree*> wide_now_{nullptr};
   mutable std::vector<std::unique_ptr<LightViewScratch>> idle_;
+};
+
+/// Memory of a table, as long as it is needed.
+class BorrowedScratch {
+ public:
+  /// Throws std::bad_alloc.
+  explicit BorrowedScratch(const LightViewTable& table) : table_(table), scratch_(table.borrow()) {}
+  BorrowedScratch(const BorrowedScratch&) = delete;
+  BorrowedScratch& operator=(const BorrowedScratch&) = delete;
+  ~BorrowedScratch() { table_.give_back(std::move(scratch_)); }
+
+  LightViewScratch& operator*() const noexcept { return *scratch_; }
+  LightViewScratch* operator->() const noexcept { return scratch_.get(); }
+
+ private:
+  const LightViewTable& table_;
+  std::unique_ptr<LightViewScratch> scratch_;
 };
 
 }  // namespace umbrix::detail

@@ -164,9 +164,8 @@ class ShaftTrace {
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || !comes_in_bundles(rays.rays)) return false;
     const DefaultFloatMode mode;
     try {
-      std::unique_ptr<LightViewScratch> scratch = table_.borrow();
+      const BorrowedScratch scratch(table_);
       trace(rays, scratch->shafts, other);
-      table_.give_back(std::move(scratch));
       return true;
     } catch (const std::bad_alloc&) {
       return false;

@@ -35,41 +35,24 @@ void expect_as_alone(const std::vector<Ray>& rays) {
 /// Where a batch of an ordered call has ended, and rays enough for two of them, or three.
 constexpr std::size_t kBatchEnds = 140000, kTwoBatches = 270000, kThreeBatches = 400000;
 
-/// From three walls, in blocks of 16 by 16, to a light between them.
-std::vector<Ray> from_walls(std::size_t count) {
-  std::vector<Ray> rays;
-  constexpr std::size_t kBlocks = 16;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t block = i / 256, wall = block / (kBlocks * kBlocks) % 3;
-    const auto place = [](std::size_t b, std::size_t k) { return static_cast<float>(16 * b + k) / (8 * kBlocks) - 1; };
-    Vec3 start;
-    start[static_cast<int>(wall)] = 1.25f;
-    start[static_cast<int>((wall + 1) % 3)] = place(block % kBlocks, i % 16);
-    start[static_cast<int>((wall + 2) % 3)] = place(block / kBlocks % kBlocks, i / 16 % 16);
-    const Vec3 way = kLight - start;
-    rays.push_back({{start.x, start.y, start.z}, 0, {way.x, way.y, way.z}, 1});
-  }
-  return rays;
-}
-
 TEST(LightView, ManyRaysFromEverywhereAreSorted) {
   // So many that they come in an order that the light cannot use, and are brought into one.
   for (const std::size_t count : {10000u, 100000u}) expect_as_alone(rays_to_light(count, kLight, 9));
 }
 
 /// The rays from a batch's end on are others.
-std::vector<Ray> from_walls_then(const std::vector<Ray>& others) {
-  std::vector<Ray> rays = from_walls(others.size());
+std::vector<Ray> walls_then(const std::vector<Ray>& others) {
+  std::vector<Ray> rays = rays_from_walls(others.size(), kLight);
   std::copy(others.begin() + kBatchEnds, others.end(), rays.begin() + kBatchEnds);
   return rays;
 }
 
-TEST(LightView, VeryManyRaysComeInBatches) { expect_as_alone(from_walls(kTwoBatches)); }
+TEST(LightView, VeryManyRaysComeInBatches) { expect_as_alone(rays_from_walls(kTwoBatches, kLight)); }
 
-TEST(LightView, OrderMayEndAfterABatch) { expect_as_alone(from_walls_then(rays_to_light(kThreeBatches, kLight, 10))); }
+TEST(LightView, OrderMayEndAfterABatch) { expect_as_alone(walls_then(rays_to_light(kThreeBatches, kLight, 10))); }
 
 TEST(LightView, TheLightMayChangeAfterABatch) {
-  expect_as_alone(from_walls_then(rays_to_light(kTwoBatches, Vec3(-0.9f, 0.1f, 0.4f), 11)));
+  expect_as_alone(walls_then(rays_to_light(kTwoBatches, Vec3(-0.9f, 0.1f, 0.4f), 11)));
 }
 
 TEST(LightView, TrianglesMayBeTinyAndNextToTheLight) {

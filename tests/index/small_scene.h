@@ -37,6 +37,23 @@ inline std::vector<Ray> rays_to_light(std::size_t count, const Vec3& light, std:
   return result;
 }
 
+/// From three walls, in blocks of 16 by 16, to a light between them.
+inline std::vector<Ray> rays_from_walls(std::size_t count, const Vec3& light) {
+  std::vector<Ray> rays;
+  constexpr std::size_t kBlocks = 16;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t block = i / 256, wall = block / (kBlocks * kBlocks) % 3;
+    const auto place = [](std::size_t b, std::size_t k) { return static_cast<float>(16 * b + k) / (8 * kBlocks) - 1; };
+    Vec3 start;
+    start[static_cast<int>(wall)] = 1.25f;
+    start[static_cast<int>((wall + 1) % 3)] = place(block % kBlocks, i % 16);
+    start[static_cast<int>((wall + 2) % 3)] = place(block / kBlocks % kBlocks, i / 16 % 16);
+    const Vec3 way = light - start;
+    rays.push_back({{start.x, start.y, start.z}, 0, {way.x, way.y, way.z}, 1});
+  }
+  return rays;
+}
+
 /// One mesh, seen from within.
 struct SmallScene {
   std::vector<Triangle> triangles;
