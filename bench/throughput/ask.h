@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report.h"
+#include "umbrix/executor.h"
 #include "umbrix/ray.h"
 
 namespace umbrix::bench {
@@ -19,17 +20,28 @@ using Ask = std::function<void(RaySpan, std::uint8_t*)>;
 /// Processor time of this thread, or where several threads work the wall time.
 inline double seconds_of(int threads) { return threads == 1 ? thread_seconds() : wall_seconds(); }
 
-/// Asks for all rays: on one thread in one call, on more within their arena in equal parts.
-inline void ask_all(const Ask& ask, const std::vector<Ray>& rays, std::uint8_t* out, int threads) {
-  if (threads == 1) {
-    ask({rays.data(), rays.size()}, out);
-    return;
-  }
-  const auto parts = static_cast<std::size_t>(threads);
-  const std::size_t block_size = std::max<std::size_t>(4096, (rays.size() + parts - 1) / parts);
-  tbb::parallel_for(std::size_t{0}, (rays.size() + block_size - 1) / block_size, [&](std::size_t block) {
-    const std::size_t begin = block * block_size;
-    ask({rays.data() + begin, std::min(block_size, rays.size() - begin)}, out + begin);
+/// What Umbrix shares a call among threads with; null for one.
+inline const Executor* executor_for(int threads) {
+  static constexpr Executor kTbb{};
+  return threads > 1 ? &kTbb : nullptr;
+}
+
+/// How rays come to several threads.
+enum class Cutting {
+  none,    ///< all in one call, which shares them itself
+  blocks,  ///< 64 tiles in a call: threads take the next as they are ready
+  parts,   ///< a call for each thread: what is sorted for the call gains from many
+};
+
+/// Asks for all rays within the arena of so many threads; on one thread in one call.
+inline void ask_all(const Ask& ask, const std::vector<Ray>& rays, std::uint8_t* out, int threads, Cutting cutting) {
+  const std::size_t part = (rays.size() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads);
+  const bool is_whole = threads == 1 || cutting == Cutting::none;
+  const std::size_t size = is_whole ? rays.size() : cutting == Cutting::blocks ? 64 * 256 : part;
+  if (rays.empty()) return;
+  tbb::parallel_for(std::size_t{0}, (rays.size() + size - 1) / size, [&](std::size_t block) {
+    const std::size_t begin = block * size;
+    ask({rays.data() + begin, std::min(size, rays.size() - begin)}, out + begin);
   });
 }
 

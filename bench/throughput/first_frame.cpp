@@ -63,8 +63,9 @@ Status run_umbrix(const std::vector<MeshView>& views, const std::vector<Ray>& ra
   out.build.push_back(seconds_of(threads) - start);
   out.megabytes.push_back(memory.megabytes());
   start = seconds_of(threads);
-  ask_all([&](RaySpan part, std::uint8_t* answers) { scene.occluded(part, answers); }, rays, out.answers.data(),
-          threads);
+  QueryOptions options;
+  options.executor = executor_for(threads);
+  scene.occluded({rays.data(), rays.size()}, out.answers.data(), options);
   out.frames[0].push_back(seconds_of(threads) - start);
   return {};
 }
@@ -78,7 +79,7 @@ Status run_embree(const std::vector<MeshView>& views, const std::vector<Ray>& ra
   for (std::size_t mode = 0; mode < out.frames.size(); ++mode) {
     const double start = seconds_of(threads);
     ask_all([&](RaySpan part, std::uint8_t* answers) { scene.occluded(part, embree::modes()[mode], answers); }, rays,
-            out.answers.data(), threads);
+            out.answers.data(), threads, Cutting::blocks);
     out.frames[mode].push_back(seconds_of(threads) - start);
   }
   return {};

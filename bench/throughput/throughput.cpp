@@ -46,6 +46,7 @@ struct Peer {
   Ask run;
   bool is_embree = false;
   bool is_sorted = false;                               ///< its host sorts the rays for it
+  Cutting cutting = Cutting::none;                      ///< for several threads
   std::function<void()> begin = {}, end = {};           ///< of a frame, timed with it
   std::vector<std::vector<std::uint8_t>> answers = {};  ///< of each frame
   std::vector<double> seconds = {};
@@ -69,6 +70,7 @@ Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles
   }
   for (const std::string& name : names) {
     QueryOptions options;
+    options.executor = executor_for(settings.threads);
     if (Status status = find_kernel(name.c_str(), options.kernel); !status) return status;
     if (Status status = scene.prepare(options.kernel, training); !status) return status;
     peers.push_back(
@@ -78,9 +80,10 @@ Status add_kernels(const Settings& settings, Scene& scene, std::size_t triangles
 }
 
 // What is learnt from frame to frame.
-void add_frames(FrameTracer& tracer, std::vector<Peer>& peers) {
-  const auto trace = [&tracer](RaySpan rays, std::uint8_t* out) {
+void add_frames(FrameTracer& tracer, int threads, std::vector<Peer>& peers) {
+  const auto trace = [&tracer, threads](RaySpan rays, std::uint8_t* out) {
     ShadowTile tile;
+    tile.executor = executor_for(threads);
     tile.rays = rays;
     tracer.occluded(tile, out);
   };
@@ -99,13 +102,11 @@ void add_embree(const embree::EmbreeScene& scene, const std::string& suffix, boo
   for (const embree::Mode mode : embree::modes()) {
     const Ask ask = [&scene, mode](RaySpan rays, std::uint8_t* out) { scene.occluded(rays, mode, out); };
     const std::string name = fmt::format("embree:{}:{}", embree::mode_name(mode), suffix);
-    peers.push_back({name, ask, true});
+    peers.push_back({name, ask, true, false, Cutting::blocks});
     if (!is_shuffled) continue;
     const auto orders = std::make_shared<tbb::enumerable_thread_specific<LightOrder>>();
     const Ask ask_sorted = [ask, orders](RaySpan rays, std::uint8_t* out) { orders->local().ask(rays, out, ask); };
-    Peer sorted{name + ":sorted", ask_sorted, true};
-    sorted.is_sorted = true;
-    peers.push_back(std::move(sorted));
+    peers.push_back({name + ":sorted", ask_sorted, true, true, Cutting::parts});
   }
 }
 
@@ -122,7 +123,7 @@ double time_once(const Peer& peer, const std::vector<Ray>& rays, std::vector<std
   tbb::task_arena arena(threads);
   const double start = seconds_of(threads);
   if (peer.begin) peer.begin();
-  arena.execute([&] { ask_all(peer.run, rays, answers.data(), threads); });
+  arena.execute([&] { ask_all(peer.run, rays, answers.data(), threads, peer.cutting); });
   if (peer.end) peer.end();
   return seconds_of(threads) - start;
 }
@@ -212,7 +213,7 @@ Status measure_phase(const Settings& settings, const workload::Geometry& geometr
   if (Status status = add_kernels(settings, scene, geometry.triangle_count(), first, peers); !status) return status;
   FrameTracer tracer;
   if (Status status = tracer.start(scene); !status) return status;
-  if (!phase.before.empty()) add_frames(tracer, peers);
+  if (!phase.before.empty()) add_frames(tracer, settings.threads, peers);
   if (settings.has_embree) embree.add(phase.is_shuffled, peers);
   for (Peer& peer : peers) {
     peer.answers.resize(phase.frames.size());
