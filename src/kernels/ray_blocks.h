@@ -16,16 +16,16 @@ namespace umbrix::detail {
 template <class Each>
 void for_blocks(RaySpan rays, const QueryOptions& options, const Each& each) {
   // Some for each thread, as some cost more; within a block rays still share what they can.
-  constexpr std::size_t kOfThread = 16, kFewestRays = 1u << 12, kMostRays = 1u << 17, kTogether = 256;
+  constexpr std::size_t kOfThread = 16, kFewest = 1u << 12, kMost = 1u << 17, kTogether = 256;
   const auto ask = [&](std::size_t first, std::size_t count) {
     QueryOptions here = options;
     here.executor = nullptr;
     if (here.skip) here.skip += first;
     each(RaySpan{&rays[first], count, rays.stride}, first, here);
   };
-  if (options.executor && rays.count > kFewestRays) {
+  if (options.executor && rays.count > kFewest) {
     const std::size_t share = rays.count / (kOfThread * thread_count(options.executor));
-    const std::size_t size = std::clamp(share, kFewestRays, kMostRays) / kTogether * kTogether;
+    const std::size_t size = std::clamp(share, kFewest, kMost) / kTogether * kTogether;
     try {
       parallel_for(options.executor, (rays.count + size - 1) / size,
                    [&](std::size_t block) { ask(block * size, std::min(size, rays.count - block * size)); });
