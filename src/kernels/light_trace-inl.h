@@ -109,8 +109,8 @@ class LightTrace {
     const LightPoint light = find_light(rays.rays, scale);
     std::vector<Counts> none;
     std::atomic<std::size_t> next{0};
-    std::atomic<bool> are_for_it{true},
-        are_ordered{are_dense};  // once some are not, those that come later are not tried
+    std::atomic<bool> are_for_it{true};
+    std::atomic<bool> are_ordered{are_dense};  // once some are not, those that come later are not tried
     parallel_for(rays.executor, threads, [&](std::size_t) {
       const DefaultFloatMode mode;
       const BorrowedScratch scratch(table_);
