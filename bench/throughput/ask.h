@@ -35,10 +35,12 @@ enum class Cutting {
 
 /// Asks for all rays within the arena of so many threads; on one thread in one call.
 inline void ask_all(const Ask& ask, const std::vector<Ray>& rays, std::uint8_t* out, int threads, Cutting cutting) {
+  if (threads == 1 || cutting == Cutting::none) {
+    ask({rays.data(), rays.size()}, out);
+    return;
+  }
   const std::size_t part = (rays.size() + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads);
-  const bool is_whole = threads == 1 || cutting == Cutting::none;
-  const std::size_t size = is_whole ? rays.size() : cutting == Cutting::blocks ? 64 * 256 : part;
-  if (rays.empty()) return;
+  const std::size_t size = cutting == Cutting::blocks ? 64 * 256 : std::max<std::size_t>(part, 1);
   tbb::parallel_for(std::size_t{0}, (rays.size() + size - 1) / size, [&](std::size_t block) {
     const std::size_t begin = block * size;
     ask({rays.data() + begin, std::min(size, rays.size() - begin)}, out + begin);

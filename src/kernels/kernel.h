@@ -14,8 +14,8 @@ struct EntryPoints {
   void (*occluded_counted)(const SceneView&, RaySpan, std::uint8_t* out, const QueryOptions&, OcclusionCounts&);
   void (*closest)(const SceneView&, RaySpan, Hit* out, const QueryOptions&);
   void (*closest_counted)(const SceneView&, RaySpan, Hit* out, const QueryOptions&, RayCounts&);
-  bool shares_occluded =
-      false;  ///< does `occluded` itself share rays among the executor's threads? else they come in blocks
+  /// Does `occluded` itself share rays among the executor's threads? Else they come in blocks.
+  bool shares_occluded = false;
 };
 
 /// What a side table is made from.
