@@ -16,23 +16,25 @@ template <class Each>
 void for_blocks(RaySpan rays, const QueryOptions& options, const Each& each) {
   // Some for each thread, as some cost more; within a block rays still share what they can.
   constexpr std::size_t kOfThread = 16, kFewest = 1u << 12, kMost = 1u << 17, kTogether = 256;
-  const auto ask = [&](std::size_t first, std::size_t count) {
+  const auto ask = [&](RaySpan part, std::size_t first) {
     QueryOptions here = options;
     here.executor = nullptr;
     if (here.skip) here.skip += first;
-    each(RaySpan{&rays[first], count, rays.stride}, first, here);
+    each(part, first, here);
   };
   if (options.executor && rays.count > kFewest) {
     const std::size_t share = rays.count / (kOfThread * thread_count(options.executor));
     const std::size_t size = std::clamp(share, kFewest, kMost) / kTogether * kTogether;
     try {
-      parallel_for(options.executor, (rays.count + size - 1) / size,
-                   [&](std::size_t block) { ask(block * size, std::min(size, rays.count - block * size)); });
+      parallel_for(options.executor, (rays.count + size - 1) / size, [&](std::size_t block) {
+        const std::size_t first = block * size;
+        ask({&rays[first], std::min(size, rays.count - first), rays.stride}, first);
+      });
       return;
     } catch (...) {  // no threads, or a host's that fail
     }
   }
-  ask(0, rays.count);
+  ask(rays, 0);
 }
 
 }  // namespace umbrix::detail
