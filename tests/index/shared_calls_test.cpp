@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <string>
+#include <initializer_list>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "bundles.h"
@@ -109,6 +110,9 @@ TEST(SharedCalls, AreSharedIfTheyAreLarge) {
     else
       EXPECT_EQ(pool.calls, 0u) << call.name;
   }
+  Pool pool;
+  ask_frames(two.scene, rays_from_walls(40000, kLight), &pool.executor);
+  EXPECT_GT(pool.calls, 1u) << "a frame's tile";
 }
 
 /// Each ray has a triangle that is not there for it: the one that it meets first.
