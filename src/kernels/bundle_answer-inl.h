@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/group_rays.h"
+#include "kernels/row_rays-inl.h"
 #include "kernels/shaft_packets-inl.h"
 #include "kernels/tree_kernel-inl.h"
 #include "kernels/walk_rays-inl.h"
@@ -58,7 +59,14 @@ class BundleAnswer {
   /// Those of the rays in `lanes` that are open, each by itself.
   HWY_INLINE void meet_alone(const WalkRays& rays, std::uint32_t lanes, const TriangleRows& rows, float reach) {
     NoCounts none;
-    for (std::uint32_t rest = lanes & open(); rest != 0; rest &= rest - 1) {
+    std::uint32_t here = lanes & open();
+    if (here == 0) return;
+    if (HWY_LIKELY(plain_)) {
+      const RayHits hits = RowRays(rays, rows, reach).meet(here);
+      blocked_ |= hits.hit;
+      here = hits.unsure;
+    }
+    for (std::uint32_t rest = here; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = first_lane(rest);
       const std::size_t i = select(lane);
       const WalkRay ray = rays.ray(lane);

@@ -25,6 +25,9 @@ namespace HWY_NAMESPACE {
 /// What makes the time of an exit certainly late enough.
 inline constexpr float kLaterExit = 1 + 0x1p-20f;
 
+/// What covers the rounding of a sum of three distances.
+inline constexpr float kMoreReach = 1 + 0x1p-20f;
+
 /// Nothing moves faster through the planes of an axis: the time at one is beyond all others then, and a ray moves by
 /// less than any box is grown.
 inline constexpr float kLeastSlope = 0x1p-64f;
@@ -32,13 +35,7 @@ inline constexpr float kLeastSlope = 0x1p-64f;
 /// Sixteen boxes as offsets from a start: lower, then upper faces.
 struct alignas(64) Faces {
   float at[6][kRowLanes];
-
-  /// No point of a box is farther from the start, as a 1-norm.
-  float reach(std::uint32_t lane) const {
-    float result = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) result += std::max(-at[k][lane], at[3 + k][lane]);
-    return result * (1 + 0x1p-20f);
-  }
+  float reach[kRowLanes];  ///< no point of a box is farther from the start, as a 1-norm
 };
 
 class BundleHull {
@@ -67,11 +64,16 @@ class BundleHull {
   HWY_INLINE void see(const float (&lower)[3][kRowLanes], const float (&upper)[3][kRowLanes], Faces& faces) const {
     const RayTag f;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto reach = hn::Zero(f);
       for (std::uint32_t k = 0; k < 3; ++k) {
         const auto start = hn::Set(f, start_[k]);
-        hn::Store(hn::Sub(hn::Load(f, lower[k] + i), start), f, faces.at[k] + i);
-        hn::Store(hn::Sub(hn::Load(f, upper[k] + i), start), f, faces.at[3 + k] + i);
+        const auto low_face = hn::Sub(hn::Load(f, lower[k] + i), start);
+        const auto high_face = hn::Sub(hn::Load(f, upper[k] + i), start);
+        hn::Store(low_face, f, faces.at[k] + i);
+        hn::Store(high_face, f, faces.at[3 + k] + i);
+        reach = hn::Add(reach, hn::Max(hn::Neg(low_face), high_face));
       }
+      hn::Store(hn::Mul(reach, hn::Set(f, kMoreReach)), f, faces.reach + i);
     }
   }
 
@@ -81,13 +83,14 @@ class BundleHull {
     const RayTag f;
     std::uint32_t result = 0;
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      auto t0 = hn::Zero(f), t1 = hn::Set(f, 1.0f);
+      auto t0 = hn::Zero(f), t1 = hn::Set(f, 1.0f), reach = hn::Zero(f);
       for (std::uint32_t k = 0; k < 3; ++k) {
         const auto start = hn::Set(f, start_[k]);
         const auto low_face = hn::Sub(hn::Load(f, lower[k] + i), start);
         const auto high_face = hn::Sub(hn::Load(f, upper[k] + i), start);
         hn::Store(low_face, f, faces.at[k] + i);
         hn::Store(high_face, f, faces.at[3 + k] + i);
+        reach = hn::Add(reach, hn::Max(hn::Neg(low_face), high_face));
         const auto low = hn::Mul(high_face, hn::Set(f, inverse_low_[k]));
         const auto high = hn::Mul(low_face, hn::Set(f, inverse_high_[k]));
         if (inverse_low_[k] > 0)
@@ -99,6 +102,7 @@ class BundleHull {
         else
           t1 = hn::Min(t1, high);
       }
+      hn::Store(hn::Mul(reach, hn::Set(f, kMoreReach)), f, faces.reach + i);
       result |= ray_bits(hn::Le(t0, hn::Mul(t1, hn::Set(f, kLaterExit)))) << i;
     }
     return result;

@@ -18,6 +18,11 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
+/// Lanes of rays, by box.
+struct alignas(64) RaysByBox {
+  std::uint32_t of[kRowLanes] = {};
+};
+
 /// A bundle's rays against boxes. Times are parts of the way, as in bundle_hull-inl.h.
 class BundleTimes {
  public:
@@ -36,11 +41,10 @@ class BundleTimes {
       hn::Store(hn::Mul(hn::Load(f, b.begin + i), hn::Set(f, 1 / kLaterExit)), f, begin_ + i);
   }
 
-  /// Each of some boxes against the rays side by side.
-  HWY_INLINE std::uint32_t by_boxes(const Faces& faces, std::uint32_t boxes, std::uint32_t active,
-                                    std::uint16_t (&rays)[kRowLanes]) const {
+  /// Each of some boxes against the rays side by side: which of the `active` rays meet it, for all boxes.
+  HWY_INLINE void by_boxes(const Faces& faces, std::uint32_t boxes, std::uint32_t active, RaysByBox& rays) const {
     const RayTag f;
-    std::uint32_t result = 0;
+    rays = RaysByBox();
     for (std::uint32_t rest = boxes; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = lane_of(rest);
       std::uint32_t met = 0;
@@ -55,51 +59,33 @@ class BundleTimes {
         }
         met |= ray_bits(hn::Le(t0, hn::Mul(t1, hn::Set(f, kLaterExit)))) << i;
       }
-      met &= active;
-      rays[lane] = static_cast<std::uint16_t>(met);
-      result |= (met != 0 ? 1u : 0u) << lane;
+      rays.of[lane] = met & active;
     }
-    return result;
   }
 
-  /// Each of some rays against the boxes side by side.
-  HWY_INLINE std::uint32_t by_rays(const Faces& faces, std::uint32_t boxes, std::uint32_t active,
-                                   std::uint16_t (&rays)[kRowLanes]) const {
-    std::uint32_t result = 0, met[kRowLanes];
-    for (std::uint32_t rest = active; rest != 0; rest &= rest - 1) {
-      const std::uint32_t i = lane_of(rest);
-      met[i] = boxes & crossed(faces, i);
-      result |= met[i];
-    }
-    for (std::uint32_t some = result; some != 0; some &= some - 1) {
-      const std::uint32_t lane = lane_of(some);
-      std::uint32_t in = 0;
+  /// The same, each of the `active` rays against the boxes side by side.
+  HWY_INLINE void by_rays(const Faces& faces, std::uint32_t active, RaysByBox& rays) const {
+    const RayTag f;
+    const hn::RebindToUnsigned<RayTag> n;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+      auto met = hn::Zero(n);
       for (std::uint32_t rest = active; rest != 0; rest &= rest - 1) {
-        const std::uint32_t i = lane_of(rest);
-        in |= (met[i] >> lane & 1) << i;
+        const std::uint32_t ray = lane_of(rest);
+        auto t0 = hn::Set(f, begin_[ray]), t1 = hn::Set(f, 1.0f);
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          const std::uint32_t falls = falls_[k] >> ray & 1;
+          const auto inverse = hn::Set(f, inverse_[k][ray]);
+          t0 = hn::Max(t0, hn::Mul(hn::Load(f, faces.at[k + 3 * falls] + i), inverse));
+          t1 = hn::Min(t1, hn::Mul(hn::Load(f, faces.at[k + 3 - 3 * falls] + i), inverse));
+        }
+        const auto crosses = hn::Le(t0, hn::Mul(t1, hn::Set(f, kLaterExit)));
+        met = hn::Or(met, hn::IfThenElseZero(hn::RebindMask(n, crosses), hn::Set(n, rest & (0u - rest))));
       }
-      rays[lane] = static_cast<std::uint16_t>(in);
+      hn::Store(met, n, rays.of + i);
     }
-    return result;
   }
 
  private:
-  HWY_INLINE std::uint32_t crossed(const Faces& faces, std::uint32_t ray) const {
-    const RayTag f;
-    std::uint32_t result = 0;
-    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-      auto t0 = hn::Set(f, begin_[ray]), t1 = hn::Set(f, 1.0f);
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t falls = falls_[k] >> ray & 1;
-        const auto inverse = hn::Set(f, inverse_[k][ray]);
-        t0 = hn::Max(t0, hn::Mul(hn::Load(f, faces.at[k + 3 * falls] + i), inverse));
-        t1 = hn::Min(t1, hn::Mul(hn::Load(f, faces.at[k + 3 - 3 * falls] + i), inverse));
-      }
-      result |= ray_bits(hn::Le(t0, hn::Mul(t1, hn::Set(f, kLaterExit)))) << i;
-    }
-    return result;
-  }
-
   alignas(64) float inverse_[3][kRowLanes], begin_[kRowLanes];
   std::uint32_t falls_[3];  ///< lanes, by axis
 };

@@ -39,50 +39,60 @@ class BundleWalk {
 
  private:
   /// More rays are worth a look at the hull of all before boxes are tested, and at a row's triangles for all.
-  static constexpr std::uint32_t kFewForBoxes = 3, kFewForRows = 7;
-
-  struct Pending {
-    std::uint32_t child, rays;
-  };
+  static constexpr std::uint32_t kFewForBoxes = 5, kFewForRows = 7;
 
   void walk(const BundleHull& hull, const BundleView& view) {
     const FoldedBvh& bvh = *scene_.folded;
-    Pending stack[(kRowLanes - 1) * kMaxBvhDepth + 1];
-    std::uint32_t pending = 0;
-    Pending here{0, answer_.open()};
+    std::uint32_t pending = 0, child = 0, active = answer_.open();
     for (;;) {
-      const FoldedNode& node = bvh.node(here.child);
+      const FoldedNode& node = bvh.node(child);
       Faces faces;
-      alignas(64) std::uint16_t rays[kRowLanes];  // by box
-      Pending inner[kRowLanes];
-      std::uint32_t inner_count = 0;
-      for (std::uint32_t rest = cross(hull, node, here.rays, faces, rays); rest != 0; rest &= rest - 1) {
-        const std::uint32_t lane = lane_of(rest), child = node.child[lane];
-        if ((child & BvhNode::kLeaf) == 0)
-          inner[inner_count++] = {child, rays[lane]};
-        else
-          meet(view, bvh.rows(child & ~BvhNode::kLeaf), rays[lane] & answer_.open(), faces.reach(lane));
+      RaysByBox rays;
+      cross(hull, node, active, faces, rays);
+      for (std::uint32_t rest = push_inner(node, rays, pending); rest != 0; rest &= rest - 1) {
+        const std::uint32_t lane = lane_of(rest);
+        meet(view, bvh.rows(node.child[lane] & ~BvhNode::kLeaf), rays.of[lane] & answer_.open(), faces.reach[lane]);
       }
-      while (inner_count > 0) stack[pending++] = inner[--inner_count];
       do {
         if (pending == 0) return;
-        here = stack[--pending];
-        here.rays &= answer_.open();
-      } while (here.rays == 0);
+        child = children_[--pending];
+        active = rays_of_[pending] & answer_.open();
+      } while (active == 0);
     }
   }
 
-  /// Which boxes are crossed, and by which of the `active` rays.
-  HWY_INLINE std::uint32_t cross(const BundleHull& hull, const FoldedNode& node, std::uint32_t active, Faces& faces,
-                                 std::uint16_t (&rays)[kRowLanes]) const {
+  /// Puts the inner children that are met onto the stack, the first last. Returns the lanes of the leaves.
+  HWY_INLINE std::uint32_t push_inner(const FoldedNode& node, const RaysByBox& rays, std::uint32_t& pending) {
+    const RayTag f;
+    const hn::RebindToUnsigned<RayTag> n;
+    const auto is_inner = [&](auto child) { return hn::Eq(hn::And(child, hn::Set(n, BvhNode::kLeaf)), hn::Zero(n)); };
+    std::uint32_t leaves = 0;
+    for (std::uint32_t i = kRowLanes; i > 0;) {
+      i -= static_cast<std::uint32_t>(hn::Lanes(n));
+      const auto child = hn::Load(n, node.child + i), met = hn::Load(n, rays.of + i), none = hn::Zero(n);
+      leaves |= ray_bits(hn::RebindMask(f, hn::AndNot(is_inner(child), hn::Ne(met, none)))) << i;
+      const auto child_back = hn::Reverse(n, child), met_back = hn::Reverse(n, met);
+      const auto goes_on = hn::And(hn::Ne(met_back, none), is_inner(child_back));
+      hn::CompressStore(met_back, goes_on, n, rays_of_ + pending);
+      pending += static_cast<std::uint32_t>(hn::CompressStore(child_back, goes_on, n, children_ + pending));
+    }
+    return leaves;
+  }
+
+  /// Which boxes are crossed by which of the `active` rays.
+  HWY_INLINE void cross(const BundleHull& hull, const FoldedNode& node, std::uint32_t active, Faces& faces,
+                        RaysByBox& rays) const {
     const std::uint32_t count = count_ones(active);
     if (count <= kFewForBoxes) {
       hull.see(node.lower, node.upper, faces);
-      return times_.by_rays(faces, 0xFFFF, active, rays);
+      times_.by_rays(faces, active, rays);
+      return;
     }
     const std::uint32_t boxes = hull.meets(node.lower, node.upper, faces);
-    return count_ones(boxes) <= count ? times_.by_boxes(faces, boxes, active, rays)
-                                      : times_.by_rays(faces, boxes, active, rays);
+    if (count_ones(boxes) <= count)
+      times_.by_boxes(faces, boxes, active, rays);
+    else
+      times_.by_rays(faces, active, rays);
   }
   static std::uint32_t count_ones(std::uint32_t bits) { return static_cast<std::uint32_t>(hwy::PopCount(bits)); }
 
@@ -98,6 +108,9 @@ class BundleWalk {
   BundleAnswer answer_;
   WalkRays walk_rays_;
   BundleTimes times_;
+  // The stack: children, and which rays go there; with room for a vector beyond it.
+  static constexpr std::uint32_t kMostPending = (kRowLanes - 1) * kMaxBvhDepth + 1 + kRowLanes;
+  std::uint32_t children_[kMostPending], rays_of_[kMostPending];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -103,13 +103,14 @@ class ShaftPackets {
 
   /// Of sixteen meetings, those that few rays meet, ray by ray. Returns the rest that some meet.
   HWY_INLINE std::uint32_t meet_alone(std::uint32_t part, std::uint32_t boxes) {
-    alignas(64) std::uint16_t rays[kRowLanes];  // by box
-    std::uint32_t rest = times_.by_boxes(faces_[part], boxes, answer_.open(), rays);
+    RaysByBox rays;
+    times_.by_boxes(faces_[part], boxes, answer_.open(), rays);
+    std::uint32_t rest = boxes;
     for (std::uint32_t some = rest; some != 0; some &= some - 1) {
       const std::uint32_t lane = first_lane(some);
-      if (hwy::PopCount(rays[lane]) > kFewRays) continue;
+      if (hwy::PopCount(rays.of[lane]) > kFewRays) continue;
       rest &= ~(1u << lane);
-      answer_.meet_alone(walk_rays_, rays[lane], rows_of(part, lane), faces_[part].reach(lane));
+      answer_.meet_alone(walk_rays_, rays.of[lane], rows_of(part, lane), faces_[part].reach[lane]);
     }
     return rest;
   }
@@ -129,7 +130,7 @@ class ShaftPackets {
   }
 
   HWY_INLINE void meet_row(const BundleView& view, std::uint32_t part, std::uint32_t lane) {
-    answer_.meet(view, rows_of(part, lane), meetings_[part * kRowLanes + lane].lanes, faces_[part].reach(lane));
+    answer_.meet(view, rows_of(part, lane), meetings_[part * kRowLanes + lane].lanes, faces_[part].reach[lane]);
   }
   const TriangleRows& rows_of(std::uint32_t part, std::uint32_t lane) const {
     return bvh_.rows(meetings_[part * kRowLanes + lane].rows);

@@ -45,6 +45,15 @@ class WalkRays {
     return result;
   }
 
+  float start(std::uint32_t axis) const { return start_[axis]; }
+  const float& direction(std::uint32_t axis, std::uint32_t i) const { return direction_[axis][i]; }
+  const float& tmin(std::uint32_t i) const { return tmin_[i]; }
+  const float& tmax(std::uint32_t i) const { return tmax_[i]; }
+  const float& length(std::uint32_t i) const { return length_[i]; }
+  /// How far it is to where the ray begins and ends, as 1-norms.
+  const float& start_reach(std::uint32_t i) const { return start_reach_[i]; }
+  const float& end_reach(std::uint32_t i) const { return end_reach_[i]; }
+
  private:
   bool is_near(const Tree& tree) const {
     const float margin = near_margin(tree);
@@ -69,12 +78,17 @@ class WalkRays {
     }
     hn::Store(length, f, length_ + i);
     const auto limit = hn::Set(f, static_cast<float>(kTimeLimit));
-    hn::Store(hn::Min(hn::Mul(hn::Mul(r.tmin, scale), power), limit), f, tmin_ + i);
-    hn::Store(hn::Min(hn::Mul(hn::Mul(r.tmax, scale), power), limit), f, tmax_ + i);
+    const auto tmin = hn::Min(hn::Mul(hn::Mul(r.tmin, scale), power), limit);
+    const auto tmax = hn::Min(hn::Mul(hn::Mul(r.tmax, scale), power), limit);
+    hn::Store(tmin, f, tmin_ + i);
+    hn::Store(tmax, f, tmax_ + i);
+    hn::Store(hn::Mul(hn::Abs(tmin), length), f, start_reach_ + i);
+    hn::Store(hn::Mul(hn::Abs(tmax), length), f, end_reach_ + i);
   }
 
   const float* start_ = nullptr;
   alignas(64) float direction_[3][kRowLanes], tmin_[kRowLanes], tmax_[kRowLanes], length_[kRowLanes];
+  alignas(64) float start_reach_[kRowLanes], end_reach_[kRowLanes];
 };
 
 }  // namespace HWY_NAMESPACE
