@@ -41,24 +41,11 @@ struct alignas(64) Faces {
 class BundleHull {
  public:
   explicit BundleHull(const RayBundle& b) : start_(b.start) {
-    const RayTag f;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      auto least = hn::Load(f, b.far[k]), most = least;
-      for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
-           i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-        least = hn::Min(least, hn::Load(f, b.far[k] + i));
-        most = hn::Max(most, hn::Load(f, b.far[k] + i));
-      }
-      low_[k] = hn::GetLane(hn::MinOfLanes(f, least));
-      high_[k] = hn::GetLane(hn::MaxOfLanes(f, most));
-      inverse_low_[k] = inverse(low_[k]);
-      inverse_high_[k] = inverse(high_[k]);
+      inverse_low_[k] = inverse(b.low[k]);
+      inverse_high_[k] = inverse(b.high[k]);
     }
   }
-
-  /// The box of the rays' ends, from the start.
-  float low(std::uint32_t k) const { return low_[k]; }
-  float high(std::uint32_t k) const { return high_[k]; }
 
   /// Fills `faces`.
   HWY_INLINE void see(const float (&lower)[3][kRowLanes], const float (&upper)[3][kRowLanes], Faces& faces) const {
@@ -112,7 +99,6 @@ class BundleHull {
   static float inverse(float x) { return 1 / (std::abs(x) < kLeastSlope ? std::copysign(kLeastSlope, x) : x); }
 
   const float (&start_)[3];
-  float low_[3], high_[3];
   float inverse_low_[3], inverse_high_[3];
 };
 

@@ -32,7 +32,7 @@ class BundleWalk {
     times_.set(bundle);
     answer_.start(bundle);
     const BundleHull hull(bundle);
-    walk(hull, BundleView(bundle, hull));
+    walk(hull, BundleView(bundle));
     answer_.finish();
     return true;
   }

@@ -18,6 +18,7 @@ inline constexpr std::uint32_t kBatchBundles = 512;
 struct alignas(64) RayBundle {
   float far[3][kRowLanes];  ///< from the start to the ends
   float begin[kRowLanes];   ///< tmin over tmax
+  float low[4], high[4];    ///< the ends' box, from the start; the last of each means nothing
   float start[3];
   std::uint32_t first, count;
   bool has_begin;  ///< some tmin is not 0

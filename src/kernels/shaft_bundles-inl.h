@@ -66,6 +66,7 @@ class BundleReader {
       reach += std::abs(out.start[k]);
     }
     for (std::uint32_t i = out.count; i < kRowLanes; ++i) repeat_first(i, out);
+    bound(out);
     return (~good & present) == 0 && reach < kMostLength;
   }
 
@@ -81,6 +82,26 @@ class BundleReader {
   static void repeat_first(std::uint32_t lane, RayBundle& out) {
     for (auto& far : out.far) far[lane] = far[0];
     out.begin[lane] = out.begin[0];
+  }
+
+  static HWY_INLINE void bound(RayBundle& out) {
+    const RayTag f;
+    RayVec least[3], most[3];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      least[k] = hn::Load(f, out.far[k]);
+      most[k] = hn::Neg(least[k]);
+      for (std::uint32_t i = static_cast<std::uint32_t>(hn::Lanes(f)); i < kRowLanes;
+           i += static_cast<std::uint32_t>(hn::Lanes(f))) {
+        const auto far = hn::Load(f, out.far[k] + i);
+        least[k] = hn::Min(least[k], far);
+        most[k] = hn::Min(most[k], hn::Neg(far));
+      }
+    }
+    const FourLeast low(least[0], least[1], least[2], least[2]), minus_high(most[0], most[1], most[2], most[2]);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      out.low[k] = low.of[k];
+      out.high[k] = -minus_high.of[k];
+    }
   }
 
   const RaySpan& rays_;

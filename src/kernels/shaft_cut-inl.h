@@ -35,7 +35,11 @@ class ShaftCutter {
     row_ = row;
     for (std::uint32_t lane = 0; lane < kRowLanes; ++lane) {
       const RayBundle& b = bundle(lane < count ? lane : 0);
-      for (std::uint32_t k = 0; k < 3; ++k) starts_[k][lane] = b.start[k];
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        starts_[k][lane] = b.start[k];
+        ends_low_[k][lane] = b.start[k] + b.low[k];
+        ends_high_[k][lane] = b.start[k] + b.high[k];
+      }
     }
     cut((1u << count) - 1);
   }
@@ -78,39 +82,41 @@ class ShaftCutter {
   }
 
   void bound(Shaft& s) const {
-    const RayTag f;
-    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
-    RayVec start_low[3], start_high[3], end_low[3], end_high[3];
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      start_low[k] = end_low[k] = infinity;
-      start_high[k] = end_high[k] = hn::Neg(infinity);
-      for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-        const auto use = lane_mask(s.lanes >> i);
-        const auto x = hn::Load(f, starts_[k] + i);
-        start_low[k] = hn::Min(start_low[k], hn::IfThenElse(use, x, infinity));
-        start_high[k] = hn::Max(start_high[k], hn::IfThenElse(use, x, hn::Neg(infinity)));
-      }
-    }
-    for (std::uint32_t rest = s.lanes; rest != 0; rest &= rest - 1) {
-      const RayBundle& b = bundle(first_lane(rest));
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto start = hn::Set(f, b.start[k]);
-        for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
-          const auto end = hn::Add(start, hn::Load(f, b.far[k] + i));
-          end_low[k] = hn::Min(end_low[k], end);
-          end_high[k] = hn::Max(end_high[k], end);
-        }
-      }
-    }
+    const std::uint32_t lanes = s.lanes;
+    const FourLeast a(least(starts_[0], lanes), least(starts_[1], lanes), least(starts_[2], lanes),
+                      least(ends_low_[0], lanes));
+    const FourLeast b(least(ends_low_[1], lanes), least(ends_low_[2], lanes), least_negative(starts_[0], lanes),
+                      least_negative(starts_[1], lanes));
+    const FourLeast c(least_negative(starts_[2], lanes), least_negative(ends_high_[0], lanes),
+                      least_negative(ends_high_[1], lanes), least_negative(ends_high_[2], lanes));
+    const float low[6] = {a.of[0], a.of[1], a.of[2], a.of[3], b.of[0], b.of[1]};
+    const float high[6] = {-b.of[2], -b.of[3], -c.of[0], -c.of[1], -c.of[2], -c.of[3]};
     s.largest = 1;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      s.start_low[k] = hn::GetLane(hn::MinOfLanes(f, start_low[k]));
-      s.start_high[k] = hn::GetLane(hn::MaxOfLanes(f, start_high[k]));
-      s.end_low[k] = hn::GetLane(hn::MinOfLanes(f, end_low[k]));
-      s.end_high[k] = hn::GetLane(hn::MaxOfLanes(f, end_high[k]));
+      s.start_low[k] = low[k];
+      s.start_high[k] = high[k];
+      s.end_low[k] = low[3 + k];
+      s.end_high[k] = high[3 + k];
       s.middle[k] = 0.5f * (s.start_low[k] + s.start_high[k]);
       s.largest = std::max({s.largest, -s.start_low[k], s.start_high[k], -s.end_low[k], s.end_high[k]});
     }
+  }
+
+  /// The least of some lanes, somewhere in a vector; or the least of their negatives.
+  static HWY_INLINE RayVec least(const float (&row)[kRowLanes], std::uint32_t lanes) {
+    return least_of(row, lanes, [](RayVec x) { return x; });
+  }
+  static HWY_INLINE RayVec least_negative(const float (&row)[kRowLanes], std::uint32_t lanes) {
+    return least_of(row, lanes, [](RayVec x) { return hn::Neg(x); });
+  }
+  template <class Value>
+  static HWY_INLINE RayVec least_of(const float (&row)[kRowLanes], std::uint32_t lanes, Value&& value) {
+    const RayTag f;
+    const auto infinity = hn::Set(f, std::numeric_limits<float>::infinity());
+    auto result = infinity;
+    for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f)))
+      result = hn::Min(result, hn::IfThenElse(lane_mask(lanes >> i), value(hn::Load(f, row + i)), infinity));
+    return result;
   }
 
   /// Of the row's starts, those below x on an axis.
@@ -201,7 +207,7 @@ class ShaftCutter {
   std::vector<Shaft>& shafts_;
   std::vector<std::uint32_t>& wide_;
   std::uint32_t row_ = 0;
-  alignas(64) float starts_[3][kRowLanes];
+  alignas(64) float starts_[3][kRowLanes], ends_low_[3][kRowLanes], ends_high_[3][kRowLanes];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -49,11 +49,11 @@ struct RayHits {
 /// A bundle's rays side by side.
 class BundleView {
  public:
-  BundleView(const RayBundle& b, const BundleHull& hull) : bundle_(b) {
+  explicit BundleView(const RayBundle& b) : bundle_(b) {
     for (std::uint32_t k = 0; k < 3; ++k) {
-      middle_[k] = 0.5f * (hull.low(k) + hull.high(k));
-      half_[k] = 0.5f * (hull.high(k) - hull.low(k));
-      length_ += std::max(-hull.low(k), hull.high(k));
+      middle_[k] = 0.5f * (b.low[k] + b.high[k]);
+      half_[k] = 0.5f * (b.high[k] - b.low[k]);
+      length_ += std::max(-b.low[k], b.high[k]);
     }
   }
 

@@ -87,7 +87,7 @@ class ShaftPackets {
       rows += static_cast<std::uint32_t>(hwy::PopCount(met[i]));
     }
     if (rows == 0) return;
-    const BundleView view(bundle, hull);
+    const BundleView view(bundle);
     answer_.start(bundle);
     const bool are_many = rows > kFewRows && walk_rays_.prepare(rays_, bundle, tree_);
     if (are_many) times_.set(bundle);
