@@ -79,8 +79,8 @@ struct ShaftScratch {
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of shafts and lanes
   /// A leaf that shafts meet: those of `leaf_lists` up to `end`.
   struct Leaf {
-    std::uint32_t node, child;
     std::size_t end;
+    ShaftMeeting meeting;  ///< of any shaft
   };
   std::vector<Leaf> leaves;
   std::vector<std::uint64_t> leaf_lists;

@@ -112,7 +112,8 @@ class ShaftWalk {
       const auto row = static_cast<std::uint32_t>(lists[i] >> 32), lanes = static_cast<std::uint32_t>(lists[i]);
       for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
         const std::uint32_t met = lanes & meeting(scratch_.rows[row], node, child);
-        if (met != 0) lists[ends[child]++] = static_cast<std::uint64_t>(row) << 32 | met;
+        lists[ends[child]] = static_cast<std::uint64_t>(row) << 32 | met;  // whether any is met is hard to foresee
+        ends[child] += met != 0 ? 1 : 0;
       }
     }
     for (std::uint32_t child = 0; child < kBvhWidth; ++child) {
@@ -120,16 +121,21 @@ class ShaftWalk {
       if (ends[child] == list) continue;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
-        add_leaf(index, child, list, ends[child] - list);
+        add_leaf(node, child, list, ends[child] - list);
       else
         visit(next, list, ends[child] - list, top + kBvhWidth * count);
     }
   }
 
-  void add_leaf(std::uint32_t node, std::uint32_t child, std::size_t first, std::size_t count) {
+  void add_leaf(const BvhNode& node, std::uint32_t child, std::size_t first, std::size_t count) {
     const auto begin = scratch_.lists.begin() + static_cast<std::ptrdiff_t>(first);
     scratch_.leaf_lists.insert(scratch_.leaf_lists.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
-    scratch_.leaves.push_back({node, child, scratch_.leaf_lists.size()});
+    ShaftScratch::Leaf leaf{scratch_.leaf_lists.size(), {0, node.child[child] & ~BvhNode::kLeaf, 0, {}, {}}};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      leaf.meeting.lower[k] = node.lower[k][child];
+      leaf.meeting.upper[k] = node.upper[k][child];
+    }
+    scratch_.leaves.push_back(leaf);
   }
 
   /// Leaves one after the other, so that their triangles can be fetched some way ahead.
@@ -138,16 +144,11 @@ class ShaftWalk {
     const auto& leaves = scratch_.leaves;
     std::size_t first = 0;
     for (std::size_t i = 0; i < leaves.size() && scratch_.meetings.size() <= most_; ++i) {
-      if (i + kAhead < leaves.size() && tests_pay()) prefetch(rows_of(leaves[i + kAhead]));
+      if (i + kAhead < leaves.size() && tests_pay()) prefetch(bvh_.rows(leaves[i + kAhead].meeting.rows));
       visit_rows(leaves[i], first);
       first = leaves[i].end;
     }
   }
-
-  std::uint32_t place_of(const ShaftScratch::Leaf& leaf) const {
-    return bvh_.node(leaf.node).child[leaf.child] & ~BvhNode::kLeaf;
-  }
-  const TriangleRows& rows_of(const ShaftScratch::Leaf& leaf) const { return bvh_.rows(place_of(leaf)); }
 
   static void prefetch(const TriangleRows& rows) {
     for (std::size_t line = 0; line < sizeof rows; line += 64)
@@ -155,27 +156,26 @@ class ShaftWalk {
   }
 
   void visit_rows(const ShaftScratch::Leaf& leaf, std::size_t first) {
-    const BvhNode& node = bvh_.node(leaf.node);
-    const TriangleRows& rows = rows_of(leaf);
+    const TriangleRows& rows = bvh_.rows(leaf.meeting.rows);
+    auto& meetings = scratch_.meetings;
     for (std::size_t i = first; i < leaf.end; ++i) {
       const std::uint64_t entry = scratch_.leaf_lists[i];
-      const auto row = static_cast<std::uint32_t>(entry >> 32);
-      for (std::uint32_t rest = static_cast<std::uint32_t>(entry); rest != 0; rest &= rest - 1) {
-        const std::uint32_t shaft = row * kRowLanes + first_lane(rest);
-        std::uint32_t met = 0xFFFF;
+      const auto row = static_cast<std::uint32_t>(entry >> 32), lanes = static_cast<std::uint32_t>(entry);
+      std::size_t count = meetings.size();
+      meetings.resize(count + hwy::PopCount(lanes));
+      for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        ShaftMeeting& m = meetings[count];
+        m = leaf.meeting;
+        m.shaft = row * kRowLanes + first_lane(rest);
+        m.lanes = 0xFFFF;
         if (tests_pay()) {
-          met = tests_[shaft](rows) & ((1u << rows.count) - 1);
+          m.lanes = tests_[m.shaft](rows) & ((1u << rows.count) - 1);
           ++tested_;
-          missed_ += met == 0 ? 1 : 0;
+          missed_ += m.lanes == 0 ? 1 : 0;
         }
-        if (met == 0) continue;
-        ShaftMeeting m{shaft, place_of(leaf), met, {}, {}};
-        for (std::uint32_t k = 0; k < 3; ++k) {
-          m.lower[k] = node.lower[k][leaf.child];
-          m.upper[k] = node.upper[k][leaf.child];
-        }
-        scratch_.meetings.push_back(m);
+        count += m.lanes != 0 ? 1 : 0;  // whether it meets any is hard to foresee
       }
+      meetings.resize(count);
     }
   }
 
