@@ -45,7 +45,6 @@ class BundleAnswer {
     for (std::uint32_t rest = seen.met; rest != 0; rest &= rest - 1) {
       const std::uint32_t lane = first_lane(rest);
       const RayHits hits = view.meet(seen_, lane, (seen.edge_on >> lane & 1) != 0);
-      if ((hits.hit | hits.unsure) == 0) continue;
       if (HWY_LIKELY(plain_)) {
         blocked_ |= hits.hit;
         if (blocked_ == kAll) return;

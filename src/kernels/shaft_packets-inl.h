@@ -87,7 +87,6 @@ class BundleView {
         result.unsure |= ray_bits(hn::Not(apart)) << i;
         continue;
       }
-      if (hn::AllFalse(f, within)) continue;
       const auto plane_error = hn::Set(f, t.plane_error[lane]);
       const auto end = product(t.normal), plane = hn::Set(f, t.plane[lane]);
       auto inside = hn::Sub(end, plane);  // of the interval
