@@ -69,6 +69,7 @@ class RowRays {
     return seen;
   }
 
+  /// Without a branch: whether a ray that meets the row's box meets a triangle is hard to foresee.
   HWY_INLINE void meet(const Seen& seen, std::uint32_t ray, RayHits& result) const {
     const RayTag f;
     const auto dx = hn::Set(f, rays_.direction(0, ray)), dy = hn::Set(f, rays_.direction(1, ray)),
@@ -82,7 +83,6 @@ class RowRays {
     const auto smallest = hn::Min(hn::Min(u, v), hn::Sub(hn::Sub(det, u), v));
     const auto error = hn::MulAdd(hn::Set(f, rays_.length(ray)), hn::Set(f, edges_), hn::Set(f, kTinyEdge));
     const auto open = hn::Ge(smallest, hn::Mul(hn::Set(f, kMissFactor), error));
-    if (hn::AllFalse(f, open)) return;
     const auto t = hn::Xor(seen.t, sign), square = hn::Set(f, square_), square_reach = hn::Set(f, square_reach_);
     const auto start_error = hn::MulAdd(hn::Set(f, rays_.start_reach(ray)), square, square_reach);
     const auto end_error = hn::MulAdd(hn::Set(f, rays_.end_reach(ray)), square, square_reach);
