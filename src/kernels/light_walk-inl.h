@@ -315,7 +315,7 @@ class LightWalk {
         end(here, near.group);
         continue;
       }
-      if (result.met != 0) packets_.prefetch(group);
+      packets_.prefetch(group);  // whether it meets any is hard to foresee
       found[count] = {near.group, result.met};
       count += result.met != 0 ? 1 : 0;
       room_ -= std::min<std::size_t>(room_, hwy::PopCount(result.met));
