@@ -55,12 +55,12 @@ class BundleAnswer {
     }
   }
 
-  /// Those of the rays in `lanes` that are open, each by itself.
+  /// Those of the rays in `lanes` that are open.
   HWY_INLINE void meet_alone(const WalkRays& rays, std::uint32_t lanes, const TriangleRows& rows, float reach) {
     NoCounts none;
     std::uint32_t here = lanes & open();
     if (here == 0) return;
-    if (HWY_LIKELY(plain_)) {
+    if (kMeetsTogether && HWY_LIKELY(plain_)) {
       const RayHits hits = RowRays(rays, rows, reach).meet(here);
       blocked_ |= hits.hit;
       here = hits.unsure;
@@ -110,6 +110,9 @@ class BundleAnswer {
       if (filter_.admits(id) && filter_.is_opaque(rays_.rays[i], id)) blocked_ |= rest & (0u - rest);
     }
   }
+
+  /// Of rays against a row in pieces, those by themselves can stop after the first.
+  static constexpr bool kMeetsTogether = HWY_LANES(float) >= kRowLanes;
 
   struct Unsure {
     std::uint32_t id, lanes;

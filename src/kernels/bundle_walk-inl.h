@@ -17,6 +17,7 @@
 #include "kernels/bundle_answer-inl.h"
 #include "kernels/bundle_hull-inl.h"
 #include "kernels/bundle_times-inl.h"
+#include "kernels/compress-inl.h"
 #include "kernels/walk_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -81,8 +82,9 @@ class BundleWalk {
       leaves |= ray_bits(hn::RebindMask(f, hn::AndNot(is_inner(child), hn::Ne(met, none)))) << i;
       const auto child_back = hn::Reverse(n, child), met_back = hn::Reverse(n, met);
       const auto goes_on = hn::And(hn::Ne(met_back, none), is_inner(child_back));
-      hn::CompressStore(met_back, goes_on, n, rays_of_ + pending);
-      pending += static_cast<std::uint32_t>(hn::CompressStore(child_back, goes_on, n, children_ + pending));
+      hn::StoreU(compress(met_back, goes_on), n, rays_of_ + pending);
+      hn::StoreU(compress(child_back, goes_on), n, children_ + pending);
+      pending += static_cast<std::uint32_t>(hn::CountTrue(n, goes_on));
     }
     return leaves;
   }

@@ -16,6 +16,7 @@
 #include <cstring>
 #include <limits>
 
+#include "kernels/compress-inl.h"
 #include "kernels/light_view.h"
 #include "kernels/ray_lanes-inl.h"
 
@@ -193,13 +194,13 @@ class LightGroups {
       const auto above = hn::AndNot(below, use);
       low_spread.add(x[0], x[1], below);
       high_spread.add(x[0], x[1], above);
-      for (std::size_t k = 0; k < 3; ++k) hn::StoreU(hn::Compress(x[k], above), f, above_rows[k].data() + high_end);
-      hn::StoreU(hn::Compress(name, hn::RebindMask(n, above)), n, scratch_.above_name.data() + high_end);
+      for (std::size_t k = 0; k < 3; ++k) hn::StoreU(compress(x[k], above), f, above_rows[k].data() + high_end);
+      hn::StoreU(compress(name, hn::RebindMask(n, above)), n, scratch_.above_name.data() + high_end);
       const auto lows = hn::CountTrue(f, below);
       high_end += hn::CountTrue(f, above);
       const auto first_lows = hn::FirstN(f, lows);
-      for (std::size_t k = 0; k < 3; ++k) hn::BlendedStore(hn::Compress(x[k], below), first_lows, f, rows[k] + low_end);
-      hn::BlendedStore(hn::Compress(name, hn::RebindMask(n, below)), hn::RebindMask(n, first_lows), n,
+      for (std::size_t k = 0; k < 3; ++k) hn::BlendedStore(compress(x[k], below), first_lows, f, rows[k] + low_end);
+      hn::BlendedStore(compress(name, hn::RebindMask(n, below)), hn::RebindMask(n, first_lows), n,
                        scratch_.name.data() + low_end);
       low_end += lows;
     });

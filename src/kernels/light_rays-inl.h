@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include "kernels/compress-inl.h"
 #include "kernels/group_rays.h"
 #include "kernels/light_groups-inl.h"
 #include "kernels/light_reader-inl.h"
@@ -222,10 +223,10 @@ class LightRays {
       const auto whole = hn::RebindMask(n, keep);
       const auto u = hn::Load(f, run.u + i), v = hn::Load(f, run.v + i), w = hn::Load(f, run.w + i);
       spread.add(u, v, keep);
-      hn::StoreU(hn::Compress(u, keep), f, scratch_.u.data() + at);
-      hn::StoreU(hn::Compress(v, keep), f, scratch_.v.data() + at);
-      hn::StoreU(hn::Compress(w, keep), f, scratch_.w.data() + at);
-      hn::StoreU(hn::Compress(hn::Load(n, run.name + i), whole), n, scratch_.name.data() + at);
+      hn::StoreU(compress(u, keep), f, scratch_.u.data() + at);
+      hn::StoreU(compress(v, keep), f, scratch_.v.data() + at);
+      hn::StoreU(compress(w, keep), f, scratch_.w.data() + at);
+      hn::StoreU(compress(hn::Load(n, run.name + i), whole), n, scratch_.name.data() + at);
       at += hn::CountTrue(f, keep);
     });
     scratch_.ray_count = at;

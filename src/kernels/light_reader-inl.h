@@ -17,6 +17,7 @@
 #include <limits>
 #include <vector>
 
+#include "kernels/compress-inl.h"
 #include "kernels/group_rays.h"
 #include "kernels/light_view.h"
 #include "kernels/ray_lanes-inl.h"
@@ -185,7 +186,7 @@ class LightReader {
     sums.most_off = hn::Max(sums.most_off, or_zero(f, seen.most_off));
     sums.faces = hn::Or(sums.faces, or_zero(n, hn::Shl(hn::Set(n, 1), seen.face)));
     const auto put = [&](auto tag, auto x, auto* row) {
-      hn::StoreU(kAll ? x : hn::Compress(x, hn::RebindMask(tag, keep)), tag, row + run_.count);
+      hn::StoreU(kAll ? x : compress(x, hn::RebindMask(tag, keep)), tag, row + run_.count);
     };
     put(f, seen.u, run_.u);
     put(f, seen.v, run_.v);
