@@ -48,7 +48,7 @@ class BundleAnswer {
       if (HWY_LIKELY(plain_)) {
         blocked_ |= hits.hit;
         if (blocked_ == kAll) return;
-      } else {
+      } else if ((hits.hit & ~blocked_) != 0) {
         admit(rows.id[lane], hits.hit & ~blocked_);
       }
       if (HWY_UNLIKELY((hits.unsure & ~blocked_) != 0)) note_unsure(rows.id[lane], hits.unsure);

@@ -53,11 +53,7 @@ class BundleHull {
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       auto reach = hn::Zero(f);
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto start = hn::Set(f, start_[k]);
-        const auto low_face = hn::Sub(hn::Load(f, lower[k] + i), start);
-        const auto high_face = hn::Sub(hn::Load(f, upper[k] + i), start);
-        hn::Store(low_face, f, faces.at[k] + i);
-        hn::Store(high_face, f, faces.at[3 + k] + i);
+        const auto [low_face, high_face] = see(lower[k] + i, upper[k] + i, k, i, faces);
         reach = hn::Add(reach, hn::Max(hn::Neg(low_face), high_face));
       }
       hn::Store(hn::Mul(reach, hn::Set(f, kMoreReach)), f, faces.reach + i);
@@ -72,11 +68,7 @@ class BundleHull {
     for (std::uint32_t i = 0; i < kRowLanes; i += static_cast<std::uint32_t>(hn::Lanes(f))) {
       auto t0 = hn::Zero(f), t1 = hn::Set(f, 1.0f), reach = hn::Zero(f);
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const auto start = hn::Set(f, start_[k]);
-        const auto low_face = hn::Sub(hn::Load(f, lower[k] + i), start);
-        const auto high_face = hn::Sub(hn::Load(f, upper[k] + i), start);
-        hn::Store(low_face, f, faces.at[k] + i);
-        hn::Store(high_face, f, faces.at[3 + k] + i);
+        const auto [low_face, high_face] = see(lower[k] + i, upper[k] + i, k, i, faces);
         reach = hn::Add(reach, hn::Max(hn::Neg(low_face), high_face));
         const auto low = hn::Mul(high_face, hn::Set(f, inverse_low_[k]));
         const auto high = hn::Mul(low_face, hn::Set(f, inverse_high_[k]));
@@ -96,6 +88,20 @@ class BundleHull {
   }
 
  private:
+  struct FacePair {
+    RayVec low, high;
+  };
+
+  HWY_INLINE FacePair see(const float* lower, const float* upper, std::uint32_t axis, std::uint32_t i,
+                          Faces& faces) const {
+    const RayTag f;
+    const auto start = hn::Set(f, start_[axis]);
+    const FacePair pair{hn::Sub(hn::Load(f, lower), start), hn::Sub(hn::Load(f, upper), start)};
+    hn::Store(pair.low, f, faces.at[axis] + i);
+    hn::Store(pair.high, f, faces.at[3 + axis] + i);
+    return pair;
+  }
+
   static float inverse(float x) { return 1 / (std::abs(x) < kLeastSlope ? std::copysign(kLeastSlope, x) : x); }
 
   const float (&start_)[3];

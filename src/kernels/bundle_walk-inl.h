@@ -10,7 +10,6 @@
 #define UMBRIX_KERNELS_BUNDLE_WALK_INL_H_
 #endif
 
-#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "index/folded_bvh.h"
@@ -52,7 +51,7 @@ class BundleWalk {
       RaysByBox rays;
       cross(hull, node, active, faces, rays);
       const std::uint32_t leaves = push_inner(node, rays, pending);
-      if (pending > 0) prefetch(bvh.node(children_[pending - 1]));
+      if (pending > 0) prefetch_lines(&bvh.node(children_[pending - 1]), sizeof node);
       for (std::uint32_t rest = leaves; rest != 0; rest &= rest - 1) {
         const std::uint32_t lane = lane_of(rest);
         meet(view, bvh.rows(node.child[lane] & ~BvhNode::kLeaf), rays.of[lane] & answer_.open(), faces.reach[lane]);
@@ -63,11 +62,6 @@ class BundleWalk {
         active = rays_of_[pending] & answer_.open();
       } while (active == 0);
     }
-  }
-
-  static HWY_INLINE void prefetch(const FoldedNode& node) {
-    for (std::size_t line = 0; line < sizeof node; line += 64)
-      hwy::Prefetch(reinterpret_cast<const char*>(&node) + line);
   }
 
   /// Puts the inner children that are met onto the stack, the first last. Returns the lanes of the leaves.

@@ -14,6 +14,7 @@
 
 #include "core/transform.h"
 #include "index/instance_tree.h"
+#include "kernels/lane_vectors-inl.h"
 #include "kernels/local_ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,9 +51,7 @@ class InstanceLeaf {
   using Lanes = hn::CappedTag<double, 8>;
   using Doubles = hn::Vec<Lanes>;
 
-  struct Point {
-    Doubles x, y, z;
-  };
+  using Point = LaneVectors<Lanes>;
 
   HWY_INLINE Doubles place(int row, const Point& p) const {
     const Lanes d;
@@ -72,16 +71,6 @@ class InstanceLeaf {
     return {place(0, local), place(1, local), place(2, local)};
   }
 
-  static HWY_INLINE Point minus(const Point& a, const Point& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-  }
-  static HWY_INLINE Point cross(const Point& a, const Point& b) {
-    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-  }
-  static HWY_INLINE Doubles dot(const Point& a, const Point& b) {
-    return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-  }
   static HWY_INLINE Point all(const double (&v)[3]) {
     const Lanes d;
     return {hn::Set(d, v[0]), hn::Set(d, v[1]), hn::Set(d, v[2])};

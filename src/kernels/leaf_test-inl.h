@@ -16,6 +16,7 @@
 #include <hwy/highway.h>
 
 #include "index/triangle_bvh.h"
+#include "kernels/lane_vectors-inl.h"
 #include "kernels/scene_view.h"
 #include "kernels/walk-inl.h"
 
@@ -50,10 +51,6 @@ HWY_INLINE std::uint32_t mask_bits(D f, hn::Mask<D> mask) {
 }
 inline std::uint32_t bits_of(FloatMask mask) { return mask_bits(Lanes8(), mask); }
 
-template <class D>
-struct LaneVectors {
-  hn::Vec<D> x, y, z;
-};
 template <class D, std::size_t kLanes>
 HWY_INLINE LaneVectors<D> load_lanes(D f, const float (&rows)[3][kLanes], std::uint32_t lane) {
   return {hn::Load(f, rows[0] + lane), hn::Load(f, rows[1] + lane), hn::Load(f, rows[2] + lane)};
@@ -70,11 +67,24 @@ HWY_INLINE LaneTriangles<D> load_triangles(D f, const Block& block, std::uint32_
 }
 template <class D>
 HWY_INLINE LaneTriangles<D> load_triangles(D f, const TriangleRows& rows, std::uint32_t lane) {
-  const auto edge = [](const LaneVectors<D>& to, const LaneVectors<D>& from) {
-    return LaneVectors<D>{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
-  };
   const LaneVectors<D> v0 = load_lanes(f, rows.v[0], lane);
-  return {v0, edge(load_lanes(f, rows.v[1], lane), v0), edge(load_lanes(f, rows.v[2], lane), v0)};
+  return {v0, minus(load_lanes(f, rows.v[1], lane), v0), minus(load_lanes(f, rows.v[2], lane), v0)};
+}
+
+/// Lanes whose triangle is surely hit, or surely not in time.
+template <class D>
+struct TimedLanes {
+  hn::Mask<D> hit, missed;
+};
+
+/// From how far inside the edges a ray passes, and how far inside its interval, det being above 0, and their bounds.
+template <class D>
+HWY_INLINE TimedLanes<D> time_lanes(D, hn::Vec<D> smallest, hn::Vec<D> det, hn::Vec<D> after_start,
+                                    hn::Vec<D> before_end, hn::Vec<D> error, hn::Vec<D> start_error,
+                                    hn::Vec<D> end_error) {
+  const auto outside = hn::Or(hn::Lt(after_start, hn::Neg(start_error)), hn::Lt(before_end, hn::Neg(end_error)));
+  return {hn::And(hn::Gt(smallest, error), hn::And(hn::Gt(after_start, start_error), hn::Gt(before_end, end_error))),
+          hn::And(hn::Gt(det, error), outside)};
 }
 
 /// The ray's values in every lane, and the bounds that depend on the ray alone. Triangles are so many side by side.
@@ -178,13 +188,11 @@ class LaneTest {
     const auto t = time_numerator(triangles, x);
     const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, ray_.tmin), x.det));
     const auto before_end = hn::Sub(hn::Mul(hn::Set(f, tmax), x.det), t);
-    const auto e = hn::Set(f, error), ea = hn::Set(f, start_error), eb = hn::Set(f, end_error);
-    const auto hit = hn::And(hn::Gt(smallest, e), hn::And(hn::Gt(after_start, ea), hn::Gt(before_end, eb)));
-    const auto outside = hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)));
-    const auto missed = hn::And(hn::Gt(x.det, e), outside);
-    const std::uint32_t hit_bits = mask_bits(f, hit);
+    const TimedLanes<Lanes> timed = time_lanes(f, smallest, x.det, after_start, before_end, hn::Set(f, error),
+                                               hn::Set(f, start_error), hn::Set(f, end_error));
+    const std::uint32_t hit_bits = mask_bits(f, timed.hit);
     result.hit |= hit_bits << lane;
-    result.undecided |= (mask_bits(f, hn::AndNot(missed, open)) & ~hit_bits) << lane;
+    result.undecided |= (mask_bits(f, hn::AndNot(timed.missed, open)) & ~hit_bits) << lane;
   }
 
   static Floats abs_dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
@@ -221,12 +229,10 @@ class LaneTest {
     const auto smallest = hn::Min(hn::Min(x.u, x.v), x.w);
     const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, ray_.tmin), x.det));
     const auto before_end = hn::Sub(hn::Mul(hn::Set(f, ray_.tmax), x.det), t);
-    const auto hit = hn::And(hn::Gt(smallest, e), hn::And(hn::Gt(after_start, ea), hn::Gt(before_end, eb)));
-    const auto missed =
-        hn::Or(hn::Lt(smallest, hn::Mul(e, hn::Set(f, kMissFactor))),
-               hn::And(hn::Gt(x.det, e), hn::Or(hn::Lt(after_start, hn::Neg(ea)), hn::Lt(before_end, hn::Neg(eb)))));
-    result.hit |= mask_bits(f, hit) << lane;
-    result.undecided |= (~(mask_bits(f, hit) | mask_bits(f, missed)) & ((1u << hn::Lanes(f)) - 1)) << lane;
+    const TimedLanes<Lanes> timed = time_lanes(f, smallest, x.det, after_start, before_end, e, ea, eb);
+    const auto missed = hn::Or(hn::Lt(smallest, hn::Mul(e, hn::Set(f, kMissFactor))), timed.missed);
+    result.hit |= mask_bits(f, timed.hit) << lane;
+    result.undecided |= (~(mask_bits(f, timed.hit) | mask_bits(f, missed)) & ((1u << hn::Lanes(f)) - 1)) << lane;
   }
 
   const WalkRay& ray_;

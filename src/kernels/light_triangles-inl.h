@@ -21,6 +21,7 @@
 
 #include <limits>
 
+#include "kernels/lane_vectors-inl.h"
 #include "kernels/light_view.h"
 #include "kernels/ray_lanes-inl.h"
 
@@ -28,19 +29,8 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-struct LaneVec3 {
-  RayVec x, y, z;
-};
-HWY_INLINE LaneVec3 minus(const LaneVec3& a, const LaneVec3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE LaneVec3 cross(const LaneVec3& a, const LaneVec3& b) {
-  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-HWY_INLINE RayVec dot(const LaneVec3& a, const LaneVec3& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
+using LaneVec3 = LaneVectors<RayTag>;
+
 /// A bound of the length.
 HWY_INLINE RayVec length(const LaneVec3& a) { return hn::Mul(hn::Sqrt(dot(a, a)), hn::Set(RayTag(), 1 + 0x1p-20f)); }
 

@@ -236,14 +236,9 @@ class LightWalk {
     order(1, 2);
   }
 
-  static void prefetch(const TriangleRows& rows) {
-    for (std::size_t line = 0; line < offsetof(TriangleRows, normal); line += 64)
-      hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
-  }
-
   /// Leaves wait for a few others, so that their triangles can be fetched.
   void add_leaf(Here& here, std::uint32_t rows, std::size_t first, std::size_t last) {
-    prefetch(bvh_.rows(rows));
+    prefetch_lines(&bvh_.rows(rows), offsetof(TriangleRows, normal));
     if (waiting_count_ == LightViewScratch::kWaitingLeaves) visit_waiting(here);
     LightViewScratch::WaitingLeaf& leaf =
         scratch_.waiting[(first_waiting_ + waiting_count_++) % LightViewScratch::kWaitingLeaves];

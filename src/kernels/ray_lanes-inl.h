@@ -130,6 +130,12 @@ HWY_INLINE RayFields load_rays(const RaySpan& rays, std::size_t first) {
   return r;
 }
 
+/// For what is read some time later.
+HWY_INLINE void prefetch_lines(const void* first, std::size_t bytes) {
+  constexpr std::size_t kLine = 64;
+  for (std::size_t at = 0; at < bytes; at += kLine) hwy::Prefetch(static_cast<const char*>(first) + at);
+}
+
 /// For rays that are read some time later, if there are any: as they come from memory, processors fetch too few ahead.
 HWY_INLINE void prefetch_rays(const RaySpan& rays, std::size_t first, std::size_t count) {
   constexpr std::size_t kOfLine = 2;

@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "kernels/lane_vectors-inl.h"
 #include "kernels/leaf_test-inl.h"
 #include "kernels/ray_lanes-inl.h"
 #include "kernels/shaft_packets-inl.h"
@@ -46,40 +47,26 @@ class RowRays {
 
  private:
   struct Seen {
-    RayVec det[3], u[3], v[3], t;
+    LaneVectors<RayTag> det, u, v;
+    RayVec t;
   };
-
-  static HWY_INLINE void cross(const LaneVectors<RayTag>& a, const LaneVectors<RayTag>& b, RayVec (&out)[3]) {
-    out[0] = hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y));
-    out[1] = hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z));
-    out[2] = hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x));
-  }
 
   HWY_INLINE Seen see(std::uint32_t i) const {
     const RayTag f;
     const LaneTriangles<RayTag> t = load_triangles(f, rows_, i);
-    const LaneVectors<RayTag> s{hn::Sub(hn::Set(f, rays_.start(0)), t.v0.x),
-                                hn::Sub(hn::Set(f, rays_.start(1)), t.v0.y),
-                                hn::Sub(hn::Set(f, rays_.start(2)), t.v0.z)};
-    Seen seen;
-    cross(t.e2, t.e1, seen.det);
-    cross(t.e2, s, seen.u);
-    cross(s, t.e1, seen.v);
-    seen.t = hn::MulAdd(t.e2.z, seen.v[2], hn::MulAdd(t.e2.y, seen.v[1], hn::Mul(t.e2.x, seen.v[0])));
-    return seen;
+    const LaneVectors<RayTag> start{hn::Set(f, rays_.start(0)), hn::Set(f, rays_.start(1)), hn::Set(f, rays_.start(2))};
+    const LaneVectors<RayTag> s = minus(start, t.v0), v = cross(s, t.e1);
+    return {cross(t.e2, t.e1), cross(t.e2, s), v, dot(t.e2, v)};
   }
 
   /// Without a branch: whether a ray that meets the row's box meets a triangle is hard to foresee.
   HWY_INLINE void meet(const Seen& seen, std::uint32_t ray, RayHits& result) const {
     const RayTag f;
-    const auto dx = hn::Set(f, rays_.direction(0, ray)), dy = hn::Set(f, rays_.direction(1, ray)),
-               dz = hn::Set(f, rays_.direction(2, ray));
-    const auto along = [&](const RayVec(&x)[3]) {
-      return hn::MulAdd(dz, x[2], hn::MulAdd(dy, x[1], hn::Mul(dx, x[0])));
-    };
-    const auto signed_det = along(seen.det);
+    const LaneVectors<RayTag> d{hn::Set(f, rays_.direction(0, ray)), hn::Set(f, rays_.direction(1, ray)),
+                                hn::Set(f, rays_.direction(2, ray))};
+    const auto signed_det = dot(d, seen.det);
     const auto sign = hn::And(signed_det, hn::Set(f, -0.0f));
-    const auto det = hn::Abs(signed_det), u = hn::Xor(along(seen.u), sign), v = hn::Xor(along(seen.v), sign);
+    const auto det = hn::Abs(signed_det), u = hn::Xor(dot(d, seen.u), sign), v = hn::Xor(dot(d, seen.v), sign);
     const auto smallest = hn::Min(hn::Min(u, v), hn::Sub(hn::Sub(det, u), v));
     const auto error = hn::MulAdd(hn::Set(f, rays_.length(ray)), hn::Set(f, edges_), hn::Set(f, kTinyEdge));
     const auto open = hn::Ge(smallest, hn::Mul(hn::Set(f, kMissFactor), error));
@@ -88,12 +75,10 @@ class RowRays {
     const auto end_error = hn::MulAdd(hn::Set(f, rays_.end_reach(ray)), square, square_reach);
     const auto after_start = hn::Sub(t, hn::Mul(hn::Set(f, rays_.tmin(ray)), det));
     const auto before_end = hn::Sub(hn::Mul(hn::Set(f, rays_.tmax(ray)), det), t);
-    const auto hit =
-        hn::And(hn::Gt(smallest, error), hn::And(hn::Gt(after_start, start_error), hn::Gt(before_end, end_error)));
-    const auto outside = hn::Or(hn::Lt(after_start, hn::Neg(start_error)), hn::Lt(before_end, hn::Neg(end_error)));
-    const auto missed = hn::And(hn::Gt(det, error), outside);
-    result.hit |= (hn::AllFalse(f, hit) ? 0u : 1u) << ray;
-    result.unsure |= (hn::AllFalse(f, hn::AndNot(missed, open)) ? 0u : 1u) << ray;
+    const TimedLanes<RayTag> timed =
+        time_lanes(f, smallest, det, after_start, before_end, error, start_error, end_error);
+    result.hit |= (hn::AllFalse(f, timed.hit) ? 0u : 1u) << ray;
+    result.unsure |= (hn::AllFalse(f, hn::AndNot(timed.missed, open)) ? 0u : 1u) << ray;
   }
 
   const WalkRays& rays_;

@@ -144,15 +144,11 @@ class ShaftWalk {
     const auto& leaves = scratch_.leaves;
     std::size_t first = 0;
     for (std::size_t i = 0; i < leaves.size() && scratch_.meetings.size() <= most_; ++i) {
-      if (i + kAhead < leaves.size() && tests_pay()) prefetch(bvh_.rows(leaves[i + kAhead].meeting.rows));
+      if (i + kAhead < leaves.size() && tests_pay())
+        prefetch_lines(&bvh_.rows(leaves[i + kAhead].meeting.rows), sizeof(TriangleRows));
       visit_rows(leaves[i], first);
       first = leaves[i].end;
     }
-  }
-
-  static void prefetch(const TriangleRows& rows) {
-    for (std::size_t line = 0; line < sizeof rows; line += 64)
-      hwy::Prefetch(reinterpret_cast<const char*>(&rows) + line);
   }
 
   void visit_rows(const ShaftScratch::Leaf& leaf, std::size_t first) {
