@@ -32,9 +32,10 @@ struct AutoKernel {
       GroupRays shared{part, out + begin, here.skip, here.mask};
       shared.executor = here.executor;
       if (here.executor && trace<NoCounts>(scene, shared)) return;
+      ShaftPatience patience;
       for_blocks(part, here, [&](RaySpan block, std::size_t first, const QueryOptions& its) {
         const GroupRays group{block, out + begin + first, its.skip, its.mask};
-        if (trace_shafts(scene, group) || trace<NoCounts>(scene, group)) return;
+        if (trace_shafts(scene, group, patience) || trace<NoCounts>(scene, group)) return;
         answer_others(scene, block, out + begin + first, its);
       });
     });
@@ -88,7 +89,7 @@ struct AutoKernel {
     return result;
   }
 
-  static bool trace_shafts(const SceneView& scene, const GroupRays& rays) {
+  static bool trace_shafts(const SceneView& scene, const GroupRays& rays, ShaftPatience& patience) {
     if (!scene.side) return false;
     const auto answer = [&](auto&& by, std::size_t first, std::size_t count) {
       QueryOptions options;
@@ -96,7 +97,7 @@ struct AutoKernel {
       options.skip = rays.skip ? rays.skip + first : nullptr;
       by(scene, RaySpan{&rays.rays[first], count, rays.rays.stride}, rays.out + first, options);
     };
-    return ShaftTrace(scene, table(scene)).trace(rays, [&](std::size_t first, std::size_t count) {
+    return ShaftTrace(scene, table(scene), patience).trace(rays, [&](std::size_t first, std::size_t count) {
       answer(answer_others, first, count);
     });
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that the light sees near each other, in groups: cut by halves of their rectangle, and sorted by direction first
-// where they come in no order that serves.
+// Rays that the light sees near each other, in groups: cut by halves of their rectangle.
 
 #if defined(UMBRIX_KERNELS_LIGHT_GROUPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef UMBRIX_KERNELS_LIGHT_GROUPS_INL_H_
@@ -95,86 +94,7 @@ class LightGroups {
     split(face, first + lows, count - lows, high, most);
   }
 
-  /// For `sort`: the cells of rays from place `first` on, which lie on a curve through all of a face (Morton 1966).
-  HWY_INLINE void put_cells(std::size_t first, RayVec u, RayVec v, hn::Vec<RayBitsTag> face) {
-    const RayTag f;
-    const RayBitsTag n;
-    const hn::Rebind<std::uint16_t, RayTag> halves;
-    const auto place = [&](RayVec x) {
-      const auto at = hn::Mul(hn::Max(hn::Add(x, hn::Set(f, 1)), hn::Zero(f)), hn::Set(f, 0.5f * kCells));
-      return spread_bits(hn::ConvertTo(n, hn::Min(at, hn::Set(f, kCells - 1))));
-    };
-    const auto base = hn::Mul(face, hn::Set(n, kCells * kCells));
-    const auto cell = hn::Add(base, hn::Or(place(u), hn::ShiftLeft<1>(place(v))));
-    hn::StoreU(hn::DemoteTo(halves, cell), halves, scratch_.cells.data() + first);
-  }
-
-  /// Before `sort`, for rays that were read by faces; those that come later have their cells put.
-  void begin_to_sort() {
-    const RayTag f;
-    scratch_.make_room_to_sort();
-    for (const auto& segment : scratch_.segments) {
-      const auto face = hn::Set(RayBitsTag(), static_cast<std::int32_t>(segment.face));
-      for_lanes(segment.first, segment.count, [&](std::size_t i, RayMask) {
-        put_cells(i, hn::LoadU(f, scratch_.u.data() + i), hn::LoadU(f, scratch_.v.data() + i), face);
-      });
-    }
-  }
-
-  /// Brings rays together that the light sees in one direction: by cells of the view, which are then cut as any others.
-  void sort() {
-    overlap_ = Overlap();
-    auto& ends = scratch_.counts;
-    ends.assign(kViewFaces * kCells * kCells + 1, 0);
-    const std::size_t count = scratch_.ray_count;
-    for (std::size_t i = 0; i < count; ++i) ++ends[scratch_.cells[i] + 1];
-    for (std::size_t i = 1; i < ends.size(); ++i) ends[i] += ends[i - 1];
-    for (std::size_t i = 0; i < count; ++i)
-      scratch_.records[ends[scratch_.cells[i]]++] = {scratch_.u[i], scratch_.v[i], scratch_.w[i], scratch_.name[i]};
-    take_records();
-    for (auto& face : scratch_.faces) face.groups.clear();
-    std::size_t first = 0;
-    for (std::uint32_t cell = 0; cell + 1 < ends.size(); ++cell) {
-      const std::size_t here = ends[cell] - first;
-      if (here != 0) split(cell / (kCells * kCells), first, here, bounds(first, here), kSortedGroupRays);
-      first = ends[cell];
-    }
-  }
-
  private:
-  static constexpr std::uint32_t kCells = 64;  ///< of a face, along a side
-  /// Rays that had to be sorted have little in common but their direction.
-  static constexpr std::uint32_t kSortedGroupRays = 48;
-
-  static HWY_INLINE hn::Vec<RayBitsTag> spread_bits(hn::Vec<RayBitsTag> x) {  // a zero before each of 8 bits
-    const RayBitsTag n;
-    x = hn::And(hn::Or(x, hn::ShiftLeft<4>(x)), hn::Set(n, 0x0F0F));
-    x = hn::And(hn::Or(x, hn::ShiftLeft<2>(x)), hn::Set(n, 0x3333));
-    return hn::And(hn::Or(x, hn::ShiftLeft<1>(x)), hn::Set(n, 0x5555));
-  }
-
-  /// Puts what is sorted back into columns.
-  void take_records() {
-    const RayTag f;
-    for_lanes(0, scratch_.ray_count, [&](std::size_t i, RayMask) {
-      RayVec u, v, w, name;
-      hn::LoadInterleaved4(f, &scratch_.records[i].u, u, v, w, name);
-      hn::StoreU(u, f, scratch_.u.data() + i);
-      hn::StoreU(v, f, scratch_.v.data() + i);
-      hn::StoreU(w, f, scratch_.w.data() + i);
-      hn::StoreU(hn::BitCast(RayBitsTag(), name), RayBitsTag(), scratch_.name.data() + i);
-    });
-  }
-
-  Rectangle bounds(std::size_t first, std::size_t count) const {
-    const RayTag f;
-    Spread spread;
-    for_lanes(first, count, [&](std::size_t i, RayMask use) {
-      spread.add(hn::LoadU(f, scratch_.u.data() + i), hn::LoadU(f, scratch_.v.data() + i), use);
-    });
-    return spread.get();
-  }
-
   std::size_t partition(std::size_t first, std::size_t count, bool by_u, float middle, Rectangle& low,
                         Rectangle& high) {
     const RayTag f;

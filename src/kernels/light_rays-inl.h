@@ -19,49 +19,28 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
-/// Reads the rays of a batch, and brings them into groups.
+/// Reads the rays of a batch, and brings them into groups as they come.
 class LightRays {
  public:
   /// From `begin` to `end`; what is named must outlive it, and the scratch forgets what it had.
   LightRays(RaySpan rays, std::size_t begin, std::size_t end, float scale, const LightPoint& light,
             LightViewScratch& scratch)
-      : rays_(rays),
-        begin_(begin),
-        end_(end),
-        scratch_(scratch),
-        groups_(scratch),
-        reader_(rays, scale, light, scratch.odd) {}
+      : begin_(begin), end_(end), scratch_(scratch), groups_(scratch), reader_(rays, scale, light, scratch.odd) {}
 
-  /// As they come, if that serves, or sorted. False if rays after them would have to be sorted too, or if too many do
-  /// not end at the light.
-  bool read(bool is_ordered) {
+  /// False if they had better be sorted, or if too many do not end at the light.
+  bool read() {
     scratch_.clear(end_ - begin_ + kRowLanes);
-    if (!is_ordered) begin_to_sort();
     std::size_t next_look = 16 * kMostRays;
     for (std::size_t done = 0; done < end_ - begin_; done += kMostRays) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kMostRays, end_ - begin_ - done));
       const RayRun& run = reader_.read(begin_ + done, count);
-      if (16 * scratch_.odd.size() > kMostRays + done) return false;
-      if (is_sorting_) {
-        take_run(run);
-        continue;
-      }
+      if (are_odd(scratch_.odd.size(), done)) return false;
       for (std::uint32_t faces = run.faces; faces != 0; faces &= faces - 1) take_face(run, first_lane(faces));
       if (done < next_look) continue;
       next_look *= 2;
-      if (!may_sort(kManyLayers)) return false;
+      if (groups_.layers() > kManyLayers) return false;
     }
-    if (!may_sort(kMostLayers)) return false;
-    if (is_sorting_) groups_.sort();
-    return true;
-  }
-
-  /// Sorts what was read, which may cost less to walk then. False if it is sorted.
-  bool sort() {
-    if (is_sorting_) return false;
-    begin_to_sort();
-    groups_.sort();
-    return true;
+    return groups_.layers() <= kMostLayers;
   }
 
   ViewErrors errors() const { return reader_.errors(); }
@@ -74,20 +53,6 @@ class LightRays {
   static constexpr float kManyLayers = 16;
   /// A part has about so many.
   static constexpr std::uint32_t kPartRays = 24;
-
-  void begin_to_sort() {
-    is_sorting_ = true;
-    groups_.begin_to_sort();
-  }
-
-  /// Are rays to be sorted, from so many layers on? False if there are more than are read here.
-  bool may_sort(float most_layers) {
-    if (!is_sorting_ && groups_.layers() > most_layers) {
-      if (end_ != rays_.count) return false;
-      begin_to_sort();
-    }
-    return true;
-  }
 
   /// A rectangle in up to kMost parts, halves of halves.
   class Parts {
@@ -125,22 +90,6 @@ class LightRays {
     float by_u_, by_v_;
   };
 
-  /// As it is, to be sorted.
-  void take_run(const RayRun& run) {
-    const RayTag f;
-    const RayBitsTag n;
-    const std::size_t first = scratch_.ray_count;
-    for_lanes(0, run.count, [&](std::size_t i, RayMask) {
-      const auto u = hn::Load(f, run.u + i), v = hn::Load(f, run.v + i);
-      hn::StoreU(u, f, scratch_.u.data() + first + i);
-      hn::StoreU(v, f, scratch_.v.data() + first + i);
-      hn::StoreU(hn::Load(f, run.w + i), f, scratch_.w.data() + first + i);
-      hn::StoreU(hn::Load(n, run.name + i), n, scratch_.name.data() + first + i);
-      groups_.put_cells(first + i, u, v, hn::Load(n, run.face + i));
-    });
-    scratch_.ray_count += run.count;
-  }
-
   /// Picks the run's rays of a face, and cuts them into groups: as many equal parts of their rectangle as may do, which
   /// are cut further where they do not.
   void take_face(const RayRun& run, std::uint32_t number) {
@@ -154,7 +103,6 @@ class LightRays {
       spread.add(hn::Load(f, run.u + i), hn::Load(f, run.v + i), keep);
       count += static_cast<std::uint32_t>(hn::CountTrue(f, keep));
     });
-    scratch_.segments.push_back({number, scratch_.ray_count, count});
     const Rectangle whole = spread.get();
     const Parts parts(whole, count / kPartRays);
     alignas(64) std::uint8_t part_of[kMostRays + kRowLanes];
@@ -233,12 +181,10 @@ class LightRays {
     return spread.get();
   }
 
-  RaySpan rays_;
   std::size_t begin_, end_;
   LightViewScratch& scratch_;
   LightGroups groups_;
   LightReader reader_;
-  bool is_sorting_ = false;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -60,6 +60,9 @@ inline LightPoint find_light(RaySpan rays, float scale) {
   return light;
 }
 
+/// Are too many of the rays read so far not for the view?
+inline bool are_odd(std::size_t odd, std::size_t rays) { return 16 * odd > kMostRays + rays; }
+
 /// Starts side by side, as the light sees them.
 struct SeenStarts {
   RayVec u, v, w;             ///< on their faces

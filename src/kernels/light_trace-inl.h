@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <vector>
 
 #include "core/float_mode.h"
@@ -22,8 +23,10 @@
 #include "kernels/bvh_kernel-inl.h"
 #include "kernels/light_packets-inl.h"
 #include "kernels/light_rays-inl.h"
+#include "kernels/light_sort-inl.h"
 #include "kernels/light_walk-inl.h"
 #include "kernels/near_rays.h"
+#include "kernels/ray_blocks.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
@@ -45,11 +48,14 @@ class LightTrace {
     if (std::abs(scene_.tree->scale_exponent) > kMostScale || table_.bvh().empty()) return false;
     const DefaultFloatMode mode;
     const std::size_t many = std::max(kManyRays, scene_.kept_count / kTrianglesOfRay);
-    if (rays.rays.count < many && !start_densely(rays.rays, *scene_.tree)) return false;
+    const bool are_dense = start_densely(rays.rays, *scene_.tree);
+    if (rays.rays.count < many && !are_dense) return false;
     try {
-      if (!kCounts && rays.executor && rays.rays.count >= 2 * kFewestSharedRays) return trace_shared(rays);
-      const BorrowedScratch scratch(table_);
-      return trace(rays, *scratch);
+      Call call(rays, power_of_two(scene_.tree->scale_exponent), table_);
+      const std::size_t answered = are_dense ? trace_ordered(call) : 0;
+      if (answered < rays.rays.count && !(call.is_for_it && trace_sorted(call, answered))) return false;
+      deliver(rays, call.each);
+      return true;
     } catch (...) {  // no memory, no threads, or a host's that fail
       return false;
     }
@@ -62,10 +68,6 @@ class LightTrace {
   /// So many, and at least one for so many triangles, are near each other wherever they start; fewer that start far
   /// apart had better walk alone.
   static constexpr std::size_t kManyRays = 1u << 13, kTrianglesOfRay = 32;
-  /// Of many rays so many are answered at a time, so that what is kept of them stays in the caches of a core.
-  static constexpr std::size_t kBatchRays = 1u << 17;
-  /// Fewer are not worth a batch of their own. Threads take several, as some cost more.
-  static constexpr std::size_t kFewestSharedRays = 1u << 14, kBatchesOfThread = 4;
   /// Sorting pays where many rays come to each direction.
   static constexpr std::size_t kSortedRays = 1u << 14;
   /// So far the scene's scale is from 1 that a denormal of the host could matter.
@@ -74,80 +76,127 @@ class LightTrace {
   /// What its batches share.
   struct Call {
     const GroupRays& rays;
-    LightViewScratch& scratch;
     float scale;
     LightPoint light;
-    std::vector<Counts>& each;  ///< work of each ray, if it is counted
+    std::vector<Counts> each;               ///< work of each ray, if it is counted
+    std::deque<BorrowedScratch> scratches;  ///< one for each thread
+    std::atomic<std::size_t> end;           ///< of the rays that are answered in the way that is tried
+    std::atomic<bool> is_for_it{true};
+
+    Call(const GroupRays& its, float its_scale, const LightViewTable& table)
+        : rays(its),
+          scale(its_scale),
+          light(find_light(its.rays, its_scale)),
+          each(kCounts ? its.rays.count : 0),
+          end(its.rays.count) {
+      const std::size_t most = kCounts ? 1 : std::max<std::size_t>(1, rays.rays.count / kFewestBatchRays);
+      const std::size_t threads = rays.executor ? std::min(most, thread_count(rays.executor)) : 1;
+      for (std::size_t i = 0; i < threads; ++i) scratches.emplace_back(table);
+    }
+
+    /// Rays from `begin` on are not answered in that way.
+    void end_at(std::size_t begin) {
+      std::size_t known = end;
+      while (begin < known && !end.compare_exchange_weak(known, begin)) {
+      }
+    }
+
+    /// body(number, scratch) by each thread.
+    template <class Body>
+    void run(Body&& body) {
+      if (scratches.size() == 1) return body(0, *scratches[0]);
+      parallel_for(rays.executor, scratches.size(), [&](std::size_t i) {
+        const DefaultFloatMode mode;
+        body(i, *scratches[i]);
+      });
+    }
   };
 
-  bool trace(const GroupRays& rays, LightViewScratch& scratch) const {
-    const std::size_t all = rays.rays.count;
-    const float scale = power_of_two(scene_.tree->scale_exponent);
-    std::vector<Counts> each(kCounts ? all : 0);
-    const Call call{rays, scratch, scale, find_light(rays.rays, scale), each};
-    std::size_t begin = 0;
-    bool is_ordered = true;
-    while (is_ordered && all - begin >= 2 * kBatchRays) {
-      is_ordered = trace_batch(call, begin, begin + kBatchRays, true);
-      if (is_ordered) begin += kBatchRays;
+  /// Answers batches of rays as they come, as threads are ready for them, up to the first that had better be sorted.
+  /// Returns where that begins.
+  std::size_t trace_ordered(Call& call) const {
+    const std::size_t all = call.rays.rays.count, threads = call.scratches.size();
+    RayBlocks batches(all, threads, kFewestBatchRays, kMostBatchRays);
+    call.run([&](std::size_t, LightViewScratch& scratch) {
+      for (RayBlocks::Block batch; batches.take(batch) && batch.begin < call.end;)
+        if (!trace_batch(call, batch.begin, batch.end, scratch)) call.end_at(batch.begin);
+    });
+    return call.end;
+  }
+
+  bool trace_batch(Call& call, std::size_t begin, std::size_t end, LightViewScratch& scratch) const {
+    LightRays light_rays(call.rays.rays, begin, end, call.scale, call.light, scratch);
+    if (!light_rays.read()) return false;
+    clear_answers(call, begin, end);
+    if (walk(call, begin, light_rays.errors(), most_met(end - begin), scratch) == 0) {
+      if (call.end > begin && call.rays.rays.count - begin < kSortedRays) call.is_for_it = false;
+      return false;
     }
-    if (!trace_batch(call, begin, all, is_ordered)) return false;
-    deliver(rays, each);
+    trace_odd(call, scratch);
     return true;
   }
 
-  /// The same by an executor's threads. They take the next rays as they are ready, since some cost more than others;
-  /// rays in no order cost alike, and share more the more they are.
-  bool trace_shared(const GroupRays& rays) const {
-    const std::size_t all = rays.rays.count, threads = thread_count(rays.executor);
-    const bool are_dense = start_densely(rays.rays, *scene_.tree);
-    const std::size_t share = (all + threads - 1) / threads;
-    const std::size_t size =
-        are_dense ? std::clamp(share / kBatchesOfThread, kFewestSharedRays, kBatchRays) : std::max(share, kBatchRays);
-    const float scale = power_of_two(scene_.tree->scale_exponent);
-    const LightPoint light = find_light(rays.rays, scale);
-    std::vector<Counts> none;
-    std::atomic<std::size_t> next{0};
-    std::atomic<bool> are_for_it{true};
-    std::atomic<bool> are_ordered{are_dense};  // once some are not, those that come later are not tried
-    parallel_for(rays.executor, threads, [&](std::size_t) {
-      const DefaultFloatMode mode;
-      const BorrowedScratch scratch(table_);
-      const Call call{rays, *scratch, scale, light, none};
-      while (are_for_it) {
-        const std::size_t count = are_dense && !are_ordered ? 2 * size : size, begin = next.fetch_add(count);
-        if (begin >= all) break;
-        const std::size_t end = std::min(begin + count, all);
-        if (are_ordered && trace_batch(call, begin, end, true)) continue;
-        are_ordered = false;
-        if (!trace_batch(call, begin, end, false)) are_for_it = false;
+  /// Answers the rays from `begin` on: threads sort equal slices, and then take pieces of what they sorted together.
+  bool trace_sorted(Call& call, std::size_t begin) const {
+    const std::size_t all = call.rays.rays.count, threads = call.scratches.size();
+    std::vector<ViewErrors> errors(threads);
+    std::vector<const LightViewScratch*> slices(threads);
+    call.end = all;
+    call.run([&](std::size_t i, LightViewScratch& scratch) {
+      const std::size_t first = begin + i * (all - begin) / threads, last = begin + (i + 1) * (all - begin) / threads;
+      LightSlice slice(call.rays.rays, first, last, call.scale, call.light, scratch);
+      if (!slice.sort()) call.end_at(begin);
+      errors[i] = slice.errors();
+      slices[i] = &scratch;
+      clear_answers(call, first, last);
+      trace_odd(call, scratch);
+    });
+    if (call.end == begin) return false;
+    const LightPieces pieces(slices, threads);
+    const ViewErrors most = largest(errors);
+    std::atomic<std::size_t> next{0}, met{0};
+    call.run([&](std::size_t, LightViewScratch& scratch) {
+      for (std::size_t i; (i = next.fetch_add(1)) < pieces.count() && call.end == all;) {
+        pieces.take(i, scratch);
+        // Some pieces meet more triangles than the others: what counts is how many all do.
+        const std::size_t room = most_met(all - begin) - std::min(met.load(), most_met(all - begin));
+        const std::size_t left = walk(call, begin, most, room, scratch);
+        if (left == 0) call.end_at(begin);
+        met += room - left;
       }
     });
-    if (are_for_it) deliver(rays, none);
-    return are_for_it;
+    return call.end == all;
   }
 
-  /// Answers the rays from `begin` to `end`. False if they had better be answered otherwise: with all after them,
-  /// sorted, or if they are the last, not here.
-  bool trace_batch(const Call& call, std::size_t begin, std::size_t end, bool is_ordered) const {
+  /// So often triangles may meet groups of so many rays, or those had better be walked otherwise.
+  static std::size_t most_met(std::size_t rays) { return 64 * rays + 4096; }
+
+  static ViewErrors largest(const std::vector<ViewErrors>& all) {
+    ViewErrors most;
+    for (const ViewErrors& e : all)
+      most = {std::max(most.start, e.start), std::max(most.end, e.end), std::max(most.most, e.most)};
+    return most;
+  }
+
+  static void clear_answers(Call& call, std::size_t begin, std::size_t end) {
+    if constexpr (kCounts) std::fill(call.each.data() + begin, call.each.data() + end, Counts());
+    std::memset(call.rays.out + begin, 0, end - begin);
+  }
+
+  /// Answers the scratch's groups: notes what is blocked, where all are noted not to be. Returns how often triangles
+  /// may still meet groups, from so many times; zero, if they may not or it is in vain, and the answers are of no use.
+  std::size_t walk(Call& call, std::size_t begin, const ViewErrors& errors, std::size_t room,
+                   LightViewScratch& scratch) const {
+    LightPackets<Counts> packets(scene_, call.rays, errors, scratch, call.each);
+    const GivenUp is_given_up{call.end, begin};
+    LightWalk walk(table_.bvh(), call.light, errors, packets, scratch, is_given_up);
+    const std::size_t left = walk.walk(room);
+    if (left != 0) packets.finish();
+    return left;
+  }
+
+  void trace_odd(Call& call, const LightViewScratch& scratch) const {
     const GroupRays& rays = call.rays;
-    LightRays light_rays(rays.rays, begin, end, call.scale, call.light, call.scratch);
-    if (!light_rays.read(is_ordered)) return false;
-    const ViewErrors errors = light_rays.errors();
-    const auto walk = [&] {
-      if constexpr (kCounts) std::fill(call.each.data() + begin, call.each.data() + end, Counts());
-      LightPackets<Counts> packets(scene_, rays, errors, call.scratch, call.each);
-      if (!LightWalk(table_.bvh(), call.light, errors, packets, call.scratch).walk()) return false;
-      std::memset(rays.out + begin, 0, end - begin);
-      packets.finish();
-      return true;
-    };
-    if (!walk() && !(end == rays.rays.count && end - begin >= kSortedRays && light_rays.sort() && walk())) return false;
-    trace_odd(rays, call.scratch, call.each);
-    return true;
-  }
-
-  void trace_odd(const GroupRays& rays, const LightViewScratch& scratch, std::vector<Counts>& each) const {
     using Single = BvhKernel;
     Filter filter(scene_, rays.mask);
     typename Single::State state(scene_);
@@ -155,7 +204,7 @@ class LightTrace {
     for (const std::uint32_t i : scratch.odd) {
       if (rays.skip) filter.set_skip(rays.skip[i]);
       if constexpr (kCounts)
-        rays.out[i] = Single::occluded(scene_, filter, rays.rays[i], state, each[i]);
+        rays.out[i] = Single::occluded(scene_, filter, rays.rays[i], state, call.each[i]);
       else
         rays.out[i] = Single::occluded(scene_, filter, rays.rays[i], state, none);
     }

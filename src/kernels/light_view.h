@@ -44,6 +44,9 @@ struct ViewErrors {
 /// The most rays of a group.
 inline constexpr std::uint32_t kGroupRays = 64;
 
+/// Rays that are answered together: fewer are not worth it, and what is kept of more does not stay in a core's caches.
+inline constexpr std::size_t kFewestBatchRays = std::size_t{1} << 14, kMostBatchRays = std::size_t{1} << 17;
+
 /// Rays of one face whose starts are near each other as the light sees them.
 struct RayGroup {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
@@ -118,11 +121,6 @@ struct LightViewScratch {
     std::vector<ViewRows> rows;
     std::vector<std::uint32_t> live;  ///< by row: groups that are not answered as a whole
   };
-  /// Rays of one face that were read together.
-  struct Segment {
-    std::uint32_t face;
-    std::size_t first, count;
-  };
   struct Record {
     float u, v, w;
     std::int32_t name;
@@ -136,11 +134,10 @@ struct LightViewScratch {
   Column<float> u, v, w;      ///< of rays, in the order of groups once there are groups
   Column<std::int32_t> name;  ///< their places in the caller's order
   std::size_t ray_count = 0;
-  std::vector<Segment> segments;
-  LazyArray<Record> records;          ///< for sorting, as the next two
-  LazyArray<std::uint16_t> cells;     ///< by ray
-  std::vector<std::uint32_t> counts;  ///< by cell
-  std::vector<float> above[3];        ///< for cutting groups
+  LazyArray<Record> records;        ///< sorted by cells
+  LazyArray<std::uint16_t> cells;   ///< by ray, for sorting
+  std::vector<std::uint32_t> ends;  ///< of cells, among what is sorted
+  std::vector<float> above[3];      ///< for cutting groups
   std::vector<std::int32_t> above_name;
   FaceGroups faces[kViewFaces];
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of groups and lanes
@@ -171,7 +168,6 @@ struct LightViewScratch {
     }
     ray_count = 0;
     odd.clear();
-    segments.clear();
     for (FaceGroups& face : faces) face.groups.clear();
   }
   /// For as many rays as there is room for.

@@ -14,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 
 #include "kernels/light_triangles-inl.h"
@@ -83,17 +84,26 @@ class GroupTest {
   const RayGroup& group_;
 };
 
+/// Is the walk of a call's rays in vain? Once rays before them are known to be answered otherwise, with all after
+/// those.
+struct GivenUp {
+  const std::atomic<std::size_t>& end;  ///< of the rays that are answered so
+  std::size_t begin;                    ///< of those of the walk
+
+  bool operator()() const { return end.load(std::memory_order_relaxed) <= begin; }
+};
+
 /// Finds what the groups' rays may meet, for packets of them.
 template <class Packets>
 class LightWalk {
  public:
   LightWalk(const TriangleBvh& bvh, const LightPoint& light, const ViewErrors& errors, Packets& packets,
-            LightViewScratch& scratch)
-      : bvh_(bvh), light_(light), errors_(errors), packets_(packets), scratch_(scratch) {}
+            LightViewScratch& scratch, const GivenUp& is_given_up)
+      : bvh_(bvh), light_(light), errors_(errors), packets_(packets), scratch_(scratch), is_given_up_(is_given_up) {}
 
-  /// False if triangles meet so many groups that rays had better be walked otherwise.
-  bool walk() {
-    room_ = kMostMet * scratch_.ray_count + 4096;
+  /// Triangles may meet groups so many times; returns how many are left. None, if it is given up.
+  std::size_t walk(std::size_t room) {
+    room_ = room;
     if constexpr (kCounts) scratch_.shared.assign(scratch_.group_count(), {});
     first_group_ = 0;
     for (std::uint32_t number = 0; number < kViewFaces; ++number) {
@@ -107,17 +117,14 @@ class LightWalk {
         lists.push_back(static_cast<std::uint64_t>(row) << 32 | groups.live[row]);
       visit(here, 0, 0, lists.size(), lists.size());
       while (waiting_count_ > 0) visit_waiting(here);
-      if (room_ == 0) return false;
+      if (room_ == 0 || is_given_up_()) return 0;
       first_group_ += static_cast<std::uint32_t>(groups.groups.size());
     }
-    return true;
+    return room_;
   }
 
  private:
   static constexpr bool kCounts = Packets::kCounts;
-  /// So many times a triangle may meet a group for each ray.
-  static constexpr std::size_t kMostMet = 64;
-
   /// Meets no group.
   static constexpr ViewBox kNothing{1, -1, 1, -1, -1};
 
@@ -213,7 +220,7 @@ class LightWalk {
       if (key < kBvhWidth) break;
       const std::uint32_t child = key % kBvhWidth;
       const std::size_t list = top + child * count;
-      if (room_ == 0) return;
+      if (room_ == 0 || is_given_up_()) return;
       const std::uint32_t next = node.child[child];
       if (next & BvhNode::kLeaf)
         add_leaf(here, next & ~BvhNode::kLeaf, list, list + counts[child]);
@@ -336,6 +343,7 @@ class LightWalk {
   const ViewErrors& errors_;
   Packets& packets_;
   LightViewScratch& scratch_;
+  const GivenUp& is_given_up_;
   std::uint32_t first_group_ = 0;
   std::uint32_t first_waiting_ = 0, waiting_count_ = 0;
   std::size_t room_ = 0;  ///< for meetings of a triangle and a group

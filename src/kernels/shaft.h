@@ -3,6 +3,8 @@
 // call works on.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -68,6 +70,26 @@ struct ShaftMeeting {
 /// The boxes of sixteen meetings side by side.
 struct alignas(64) MeetingBoxes {
   float lower[3][kRowLanes], upper[3][kRowLanes];
+};
+
+/// After batches that shafts were not for, some are not tried: twice as many each time. Of a call; any threads, that of
+/// one may be lost to another's.
+class ShaftPatience {
+ public:
+  bool is_waiting() noexcept {
+    const std::uint32_t waiting = waiting_.load(std::memory_order_relaxed);
+    if (waiting != 0) waiting_.store(waiting - 1, std::memory_order_relaxed);
+    return waiting != 0;
+  }
+  void note(bool is_good) noexcept {
+    const std::uint32_t wait = is_good ? 0 : std::min(2 * wait_.load(std::memory_order_relaxed) + 1, kMostWait);
+    wait_.store(wait, std::memory_order_relaxed);
+    waiting_.store(wait, std::memory_order_relaxed);
+  }
+
+ private:
+  static constexpr std::uint32_t kMostWait = 15;
+  std::atomic<std::uint32_t> wait_{0}, waiting_{0};
 };
 
 /// Memory of one call, used again by the next.

@@ -152,10 +152,11 @@ class ShaftPackets {
   Faces faces_[kMostParts];  ///< of the meetings' boxes, as a bundle sees them
 };
 
-/// One call's rays.
+/// Rays of a call, or of one of its blocks.
 class ShaftTrace {
  public:
-  ShaftTrace(const SceneView& scene, const LightViewTable& table) : scene_(scene), table_(table) {}
+  ShaftTrace(const SceneView& scene, const LightViewTable& table, ShaftPatience& patience)
+      : scene_(scene), table_(table), patience_(patience) {}
 
   /// Answers all rays, those that are not for it by other(first, count). False, with no answer of use, if there are
   /// few, they do not come in bundles, or there is no memory.
@@ -177,24 +178,6 @@ class ShaftTrace {
   static constexpr std::size_t kFewestRays = 64;
   static constexpr int kMostScale = 60;
   static constexpr std::size_t kMostMet = 16;
-
-  /// After batches that shafts were not for, some are not tried: twice as many each time.
-  class Patience {
-   public:
-    bool is_waiting() {
-      if (waiting_ == 0) return false;
-      --waiting_;
-      return true;
-    }
-    void note(bool is_good) {
-      wait_ = is_good ? 0 : std::min(2 * wait_ + 1, kMostWait);
-      waiting_ = wait_;
-    }
-
-   private:
-    static constexpr std::uint32_t kMostWait = 15;
-    std::uint32_t wait_ = 0, waiting_ = 0;
-  };
 
   /// Are there five rays from a point, or more, on average? From somewhere among n there are (n + 1) / 2 left.
   static bool comes_in_bundles(const RaySpan& rays) {
@@ -220,7 +203,6 @@ class ShaftTrace {
     };
     scratch.bundles.resize(kBatchBundles);
     std::memset(rays.out, 0, rays.rays.count);
-    Patience patience;
     for (std::size_t next = 0; next < rays.rays.count;) {
       std::uint32_t count = 0;
       while (count < kBatchBundles && next < rays.rays.count) {
@@ -233,7 +215,7 @@ class ShaftTrace {
           other(b.first, b.count);
       }
       if (count == 0) continue;
-      if (patience.is_waiting()) {
+      if (patience_.is_waiting()) {
         for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
         continue;
       }
@@ -248,12 +230,13 @@ class ShaftTrace {
       } else {
         for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
       }
-      patience.note(is_good && 4 * scratch.wide.size() < 3 * count);
+      patience_.note(is_good && 4 * scratch.wide.size() < 3 * count);
     }
   }
 
   const SceneView& scene_;
   const LightViewTable& table_;
+  ShaftPatience& patience_;
 };
 
 }  // namespace HWY_NAMESPACE
