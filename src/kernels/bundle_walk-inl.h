@@ -12,6 +12,11 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
 #include "index/folded_bvh.h"
 #include "kernels/bundle_answer-inl.h"
 #include "kernels/bundle_hull-inl.h"
@@ -23,29 +28,39 @@ HWY_BEFORE_NAMESPACE();
 namespace umbrix::detail {
 namespace HWY_NAMESPACE {
 
+/// A bundle that walks by itself, step by step.
 class BundleWalk {
  public:
   BundleWalk(const SceneView& scene, const GroupRays& rays) : scene_(scene), rays_(rays), answer_(scene, rays) {}
 
-  /// Marks the rays that are blocked. False, with none marked, if they start far off.
-  bool trace(const RayBundle& bundle) {
+  /// False, with none of its rays marked, if they start far off. The bundle must outlive the steps.
+  bool start(const RayBundle& bundle) {
     if (!walk_rays_.prepare(rays_.rays, bundle, *scene_.tree)) return false;
     times_.set(bundle);
     answer_.start(bundle);
-    const BundleHull hull(bundle);
-    walk(hull, BundleView(bundle));
-    answer_.finish();
+    hull_.emplace(bundle);
+    view_.emplace(bundle);
+    pending_ = leaf_count_ = 0;
+    child_ = 0;
+    active_ = answer_.open();
     return true;
   }
 
- private:
-  /// More rays are worth a look at the hull of all before boxes are tested, and at a row's triangles for all.
-  static constexpr std::uint32_t kFewForBoxes = 5, kFewForRows = 7;
-
-  void walk(const BundleHull& hull, const BundleView& view) {
+  /// Meets the leaves that the last step had fetched, and goes through the next node, or through all. False if none is
+  /// left: then the rays that are blocked are marked.
+  template <bool kAll>
+  bool step() {
     const FoldedBvh& bvh = *scene_.folded;
-    std::uint32_t pending = 0, child = 0, active = answer_.open();
-    for (;;) {
+    const BundleHull& hull = *hull_;
+    const BundleView& view = *view_;
+    std::uint32_t pending = pending_, child = child_, active = active_;
+    if constexpr (!kAll) {
+      for (std::uint32_t i = 0; i < leaf_count_; ++i)
+        meet(view, *leaves_[i].rows, leaves_[i].lanes & answer_.open(), leaves_[i].reach);
+      if (leaf_count_ != 0 && !pop(pending, child, active)) return false;
+      leaf_count_ = 0;
+    }
+    do {
       const FoldedNode& node = bvh.node(child);
       Faces faces;
       RaysByBox rays;
@@ -54,14 +69,45 @@ class BundleWalk {
       if (pending > 0) prefetch_lines(&bvh.node(children_[pending - 1]), sizeof node);
       for (std::uint32_t rest = leaves; rest != 0; rest &= rest - 1) {
         const std::uint32_t lane = lane_of(rest);
-        meet(view, bvh.rows(node.child[lane] & ~BvhNode::kLeaf), rays.of[lane] & answer_.open(), faces.reach[lane]);
+        const TriangleRows& rows = bvh.rows(node.child[lane] & ~BvhNode::kLeaf);
+        if constexpr (kAll) {
+          meet(view, rows, rays.of[lane] & answer_.open(), faces.reach[lane]);
+        } else {
+          prefetch_lines(&rows, offsetof(TriangleRows, normal));
+          leaves_[leaf_count_++] = {&rows, rays.of[lane], faces.reach[lane]};
+        }
       }
-      do {
-        if (pending == 0) return;
-        child = children_[--pending];
-        active = rays_of_[pending] & answer_.open();
-      } while (active == 0);
-    }
+      if (!kAll && leaves != 0) break;
+      if (!pop(pending, child, active)) return false;
+    } while (kAll);
+    pending_ = pending;
+    child_ = child;
+    active_ = active;
+    return true;
+  }
+
+ private:
+  /// More rays are worth a look at the hull of all before boxes are tested, and at a row's triangles for all.
+  static constexpr std::uint32_t kFewForBoxes = 5, kFewForRows = 7;
+
+  /// Some rays and a row whose box they meet.
+  struct MetLeaf {
+    const TriangleRows* rows;
+    std::uint32_t lanes;
+    float reach;
+  };
+
+  /// The next node that some ray goes to. False if there is none.
+  HWY_INLINE bool pop(std::uint32_t& pending, std::uint32_t& child, std::uint32_t& active) {
+    do {
+      if (pending == 0) {
+        answer_.finish();
+        return false;
+      }
+      child = children_[--pending];
+      active = rays_of_[pending] & answer_.open();
+    } while (active == 0);
+    return true;
   }
 
   /// Puts the inner children that are met onto the stack, the first last. Returns the lanes of the leaves.
@@ -112,9 +158,58 @@ class BundleWalk {
   BundleAnswer answer_;
   WalkRays walk_rays_;
   BundleTimes times_;
+  std::optional<BundleHull> hull_;
+  std::optional<BundleView> view_;
+  MetLeaf leaves_[kRowLanes];  ///< of the last node
+  std::uint32_t leaf_count_ = 0;
+  std::uint32_t child_ = 0, active_ = 0;  ///< the next node, and the rays that go there
   // The stack: children, and which rays go there; with room for a vector beyond it.
   static constexpr std::uint32_t kMostPending = (kRowLanes - 1) * kMaxBvhDepth + 1 + kRowLanes;
+  std::uint32_t pending_ = 0;
   std::uint32_t children_[kMostPending], rays_of_[kMostPending];
+};
+
+/// Bundles that walk by themselves: in a large scene some by turns, as what one needs next is fetched while others
+/// walk.
+class BundleWalks {
+ public:
+  BundleWalks(const SceneView& scene, const GroupRays& rays) {
+    const std::uint32_t turns = scene.bvh->bytes() < kNearBytes ? 1 : kMostTurns;
+    for (std::uint32_t i = 0; i < turns; ++i) walks_.emplace_back(scene, rays);
+  }
+
+  /// Answers the bundles named, those that start far off by other(first, count).
+  template <class Other>
+  void trace(const std::vector<RayBundle>& bundles, const std::vector<std::uint32_t>& names, Other&& other) {
+    std::size_t next = 0;
+    const auto begin = [&](BundleWalk& walk) {
+      while (next < names.size()) {
+        const RayBundle& bundle = bundles[names[next++]];
+        if (walk.start(bundle)) return true;
+        other(bundle.first, bundle.count);
+      }
+      return false;
+    };
+    if (walks_.size() == 1) {
+      while (begin(walks_[0])) walks_[0].template step<true>();
+      return;
+    }
+    BundleWalk* walking[kMostTurns];
+    std::uint32_t count = 0;
+    for (BundleWalk& walk : walks_)
+      if (begin(walk)) walking[count++] = &walk;
+    for (std::uint32_t i = 0; count > 0; i = i + 1 < count ? i + 1 : 0) {
+      if (walking[i]->template step<false>() || begin(*walking[i])) continue;
+      walking[i] = walking[--count];
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kMostTurns = 6;
+  /// Where caches hold the hierarchy there is nothing to wait for.
+  static constexpr std::uint64_t kNearBytes = std::uint64_t{128} << 20;
+
+  std::deque<BundleWalk> walks_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -96,7 +96,7 @@ class ShaftPatience {
 struct ShaftScratch {
   std::vector<RayBundle> bundles;
   std::vector<Shaft> shafts;
-  std::vector<std::uint32_t> wide;  ///< bundles without one
+  std::vector<std::uint32_t> alone;  ///< bundles that walk by themselves
   std::vector<ShaftRows> rows;
   std::vector<std::uint64_t> lists;  ///< of the walk: rows of shafts and lanes
   /// A leaf that shafts meet: those of `leaf_lists` up to `end`.

@@ -26,9 +26,9 @@ namespace HWY_NAMESPACE {
 
 class ShaftCutter {
  public:
-  /// `wide` takes the numbers of bundles whose rays go all ways: these have no shaft.
-  ShaftCutter(const std::vector<RayBundle>& bundles, std::vector<Shaft>& shafts, std::vector<std::uint32_t>& wide)
-      : bundles_(bundles), shafts_(shafts), wide_(wide) {}
+  /// `alone` takes the numbers of bundles whose rays go all ways: these have no shaft.
+  ShaftCutter(const std::vector<RayBundle>& bundles, std::vector<Shaft>& shafts, std::vector<std::uint32_t>& alone)
+      : bundles_(bundles), shafts_(shafts), alone_(alone) {}
 
   /// Cuts the bundles of a row, of which there are `count`.
   void cut_row(std::uint32_t row, std::uint32_t count) {
@@ -74,7 +74,7 @@ class ShaftCutter {
     }
     if (ends > kWide * farthest) {
       for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1)
-        wide_.push_back(row_ * kRowLanes + first_lane(rest));
+        alone_.push_back(row_ * kRowLanes + first_lane(rest));
       return;
     }
     find_plane(s);
@@ -205,7 +205,7 @@ class ShaftCutter {
 
   const std::vector<RayBundle>& bundles_;
   std::vector<Shaft>& shafts_;
-  std::vector<std::uint32_t>& wide_;
+  std::vector<std::uint32_t>& alone_;
   std::uint32_t row_ = 0;
   alignas(64) float starts_[3][kRowLanes], ends_low_[3][kRowLanes], ends_high_[3][kRowLanes];
 };

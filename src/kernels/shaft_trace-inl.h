@@ -15,6 +15,8 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <numeric>
+#include <vector>
 
 #include "core/float_mode.h"
 #include "kernels/bundle_walk-inl.h"
@@ -34,16 +36,16 @@ class ShaftPackets {
   ShaftPackets(const SceneView& scene, const GroupRays& rays, const TriangleBvh& bvh, ShaftScratch& scratch)
       : bvh_(bvh), scratch_(scratch), tree_(*scene.tree), rays_(rays.rays), answer_(scene, rays) {}
 
-  /// The bundles of shafts that may meet very much had better walk by themselves: alone(bundle).
-  template <class Alone>
-  void trace(Alone&& alone) {
+  /// Bundles of shafts that may meet very much had better walk by themselves: the scratch's `alone` takes their
+  /// numbers.
+  void trace() {
     sort_meetings();
     for (std::uint32_t i = 0; i < scratch_.shafts.size(); ++i) {
       const Shaft& shaft = scratch_.shafts[i];
       const std::uint32_t first = scratch_.counts[i], last = scratch_.counts[i + 1];
       if (HWY_UNLIKELY(last - first > kMostMeetings)) {
         for (std::uint32_t rest = shaft.lanes; rest != 0; rest &= rest - 1)
-          alone(scratch_.bundles[shaft.row * kRowLanes + first_lane(rest)]);
+          scratch_.alone.push_back(shaft.row * kRowLanes + first_lane(rest));
       } else if (first != last) {
         trace_shaft(shaft, first, last);
       }
@@ -194,13 +196,11 @@ class ShaftTrace {
   template <class Other>
   void trace(const GroupRays& rays, ShaftScratch& scratch, Other&& other) {
     const BundleReader reader(*scene_.tree, rays.rays);
-    ShaftCutter cutter(scratch.bundles, scratch.shafts, scratch.wide);
+    ShaftCutter cutter(scratch.bundles, scratch.shafts, scratch.alone);
     ShaftWalk walk(table_.bvh(), scratch);
     ShaftPackets packets(scene_, rays, table_.bvh(), scratch);
-    BundleWalk by_itself(scene_, rays);
-    const auto alone = [&](const RayBundle& b) {
-      if (!by_itself.trace(b)) other(b.first, b.count);
-    };
+    BundleWalks walks(scene_, rays);
+    std::vector<std::uint32_t>& alone = scratch.alone;
     scratch.bundles.resize(kBatchBundles);
     std::memset(rays.out, 0, rays.rays.count);
     for (std::size_t next = 0; next < rays.rays.count;) {
@@ -215,23 +215,26 @@ class ShaftTrace {
           other(b.first, b.count);
       }
       if (count == 0) continue;
-      if (patience_.is_waiting()) {
-        for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
-        continue;
+      alone.clear();
+      if (patience_.is_waiting() || !trace_shafts(count, scratch, cutter, walk, packets)) {
+        alone.resize(count);
+        std::iota(alone.begin(), alone.end(), 0u);
       }
-      scratch.shafts.clear();
-      scratch.wide.clear();
-      for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
-        cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
-      const bool is_good = walk.walk(kMostMet * count);
-      if (is_good) {
-        for (const std::uint32_t i : scratch.wide) alone(scratch.bundles[i]);
-        packets.trace(alone);
-      } else {
-        for (std::uint32_t i = 0; i < count; ++i) alone(scratch.bundles[i]);
-      }
-      patience_.note(is_good && 4 * scratch.wide.size() < 3 * count);
+      walks.trace(scratch.bundles, alone, other);
     }
+  }
+
+  /// Answers the first `count` bundles, but for those that go to the scratch's `alone`. False, with none answered, if
+  /// shafts are not for them.
+  bool trace_shafts(std::uint32_t count, ShaftScratch& scratch, ShaftCutter& cutter, ShaftWalk& walk,
+                    ShaftPackets& packets) {
+    scratch.shafts.clear();
+    for (std::uint32_t row = 0; row * kRowLanes < count; ++row)
+      cutter.cut_row(row, std::min(kRowLanes, count - row * kRowLanes));
+    const bool is_good = walk.walk(kMostMet * count);
+    patience_.note(is_good && 4 * scratch.alone.size() < 3 * count);
+    if (is_good) packets.trace();
+    return is_good;
   }
 
   const SceneView& scene_;

@@ -80,5 +80,25 @@ TEST(Shafts, MoreThanOneBatch) {
   for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(answers[i] != 0, two.scene.occluded(rays[i])) << i;
 }
 
+/// So many triangles that caches do not hold them: bundles take turns then.
+TEST(Shafts, LargeScenes) {
+  constexpr std::uint64_t kTrianglesBytes = std::uint64_t{128} << 20;
+  const std::vector<Triangle> soup = random_soup(1600000, 0.004f, 9);
+  Scene scene;
+  ASSERT_TRUE(scene.add(view_of(soup)).ok());
+  ASSERT_TRUE(scene.commit().ok());
+  ASSERT_GT(scene.build_stats().bytes, kTrianglesBytes);
+  const std::vector<Ray> rays = bundles(400, 16, 0.5f, 11, 2);
+  std::vector<std::uint8_t> answers(rays.size());
+  scene.occluded(RaySpan{rays.data(), rays.size()}, answers.data());
+  std::size_t occluded = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(answers[i] != 0, scene.occluded(rays[i])) << i;
+    occluded += answers[i];
+  }
+  EXPECT_GT(occluded, rays.size() / 4);
+  EXPECT_LT(occluded, rays.size());
+}
+
 }  // namespace
 }  // namespace umbrix::detail
