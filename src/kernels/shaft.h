@@ -14,7 +14,7 @@
 namespace umbrix::detail {
 
 /// So many bundles are answered together, of which sixteen in a row are cut into shafts.
-inline constexpr std::uint32_t kBatchBundles = 512;
+inline constexpr std::uint32_t kBatchBundles = 256;
 
 /// Up to sixteen rays from one point, in the tree's units. Lanes from `count` on repeat the first.
 struct alignas(64) RayBundle {

@@ -198,7 +198,7 @@ class ShaftCutter {
   }
 
   /// How wide the starts of a shaft may be, compared with its ends and with its length.
-  static constexpr float kWidth = 0.35f, kSlope = 0.01f;
+  static constexpr float kWidth = 0.45f, kSlope = 0.01f;
 
   /// Ends that are wider than this, compared with their distance, are seen all around.
   static constexpr float kWide = 0.8f;
