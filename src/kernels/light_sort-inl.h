@@ -113,7 +113,7 @@ class LightPieces {
     pieces_.push_back({0, 0});
     for (std::uint32_t cell = 0; cell < ViewCells::kAll; ++cell) {
       for (const LightViewScratch* slice : slices) here += count_of(*slice, cell);
-      if (threads > 1 && here >= block_size(left, threads, kFewestBatchRays, kMostBatchRays)) {
+      if (threads > 1 && here > 0 && here >= block_size(left, threads, kFewestBatchRays, kMostBatchRays)) {
         pieces_.back().count = here;
         pieces_.push_back({cell + 1, 0});
         left -= std::exchange(here, 0);
