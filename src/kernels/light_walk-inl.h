@@ -84,8 +84,8 @@ class GroupTest {
   const RayGroup& group_;
 };
 
-/// Is the walk of a call's rays in vain? Once rays before them are known to be answered otherwise, with all after
-/// those.
+/// Is the walk of some of a call's rays in vain? Once these, or rays before them, are known to be answered otherwise,
+/// with all after those.
 struct GivenUp {
   const std::atomic<std::size_t>& end;  ///< of the rays that are answered so
   std::size_t begin;                    ///< of those of the walk

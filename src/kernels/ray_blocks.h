@@ -60,8 +60,8 @@ void for_blocks(RaySpan rays, const QueryOptions& options, const Each& each) {
   };
   if (options.executor && rays.count > kFewest) {
     try {
-      const std::size_t threads = thread_count(options.executor);
-      RayBlocks blocks(rays.count, std::max<std::size_t>(threads, 2), kFewest, kMost);
+      const std::size_t threads = std::min(thread_count(options.executor), rays.count / kFewest);
+      RayBlocks blocks(rays.count, threads, kFewest, kMost);
       parallel_for(options.executor, threads, [&](std::size_t) {
         for (RayBlocks::Block block; blocks.take(block);) ask(block.begin, block.end - block.begin);
       });
