@@ -13,7 +13,6 @@
 #include <hwy/highway.h>
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -173,9 +172,9 @@ class BundleWalk {
 /// walk.
 class BundleWalks {
  public:
-  BundleWalks(const SceneView& scene, const GroupRays& rays) {
-    const std::uint32_t turns = scene.bvh->bytes() < kNearBytes ? 1 : kMostTurns;
-    for (std::uint32_t i = 0; i < turns; ++i) walks_.emplace_back(scene, rays);
+  BundleWalks(const SceneView& scene, const GroupRays& rays)
+      : turns_(scene.bvh->bytes() < kNearBytes ? 1 : kMostTurns) {
+    for (std::uint32_t i = 0; i < turns_; ++i) walks_[i].emplace(scene, rays);
   }
 
   /// Answers the bundles named, those that start far off by other(first, count).
@@ -190,14 +189,14 @@ class BundleWalks {
       }
       return false;
     };
-    if (walks_.size() == 1) {
-      while (begin(walks_[0])) walks_[0].template step<true>();
+    if (turns_ == 1) {
+      while (begin(*walks_[0])) walks_[0]->template step<true>();
       return;
     }
     BundleWalk* walking[kMostTurns];
     std::uint32_t count = 0;
-    for (BundleWalk& walk : walks_)
-      if (begin(walk)) walking[count++] = &walk;
+    for (std::uint32_t i = 0; i < turns_; ++i)
+      if (begin(*walks_[i])) walking[count++] = &*walks_[i];
     for (std::uint32_t i = 0; count > 0; i = i + 1 < count ? i + 1 : 0) {
       if (walking[i]->template step<false>() || begin(*walking[i])) continue;
       walking[i] = walking[--count];
@@ -209,7 +208,8 @@ class BundleWalks {
   /// Where caches hold the hierarchy there is nothing to wait for.
   static constexpr std::uint64_t kNearBytes = std::uint64_t{128} << 20;
 
-  std::deque<BundleWalk> walks_;
+  std::uint32_t turns_;
+  std::optional<BundleWalk> walks_[kMostTurns];  ///< so many of them
 };
 
 }  // namespace HWY_NAMESPACE

@@ -107,7 +107,8 @@ class LightSlice {
 class LightPieces {
  public:
   /// What is named must outlive it.
-  LightPieces(const std::vector<const LightViewScratch*>& slices, std::size_t threads) : slices_(slices) {
+  explicit LightPieces(const std::vector<const LightViewScratch*>& slices) : slices_(slices) {
+    const std::size_t threads = slices.size();
     std::size_t left = 0, here = 0;
     for (const LightViewScratch* slice : slices) left += slice->ray_count;
     pieces_.push_back({0, 0});

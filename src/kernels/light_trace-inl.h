@@ -145,14 +145,14 @@ class LightTrace {
     call.run([&](std::size_t i, LightViewScratch& scratch) {
       const std::size_t first = begin + i * (all - begin) / threads, last = begin + (i + 1) * (all - begin) / threads;
       LightSlice slice(call.rays.rays, first, last, call.scale, call.light, scratch);
-      if (!slice.sort()) call.end_at(begin);
+      if (!slice.sort()) return call.end_at(begin);
       errors[i] = slice.errors();
       slices[i] = &scratch;
       clear_answers(call, first, last);
       trace_odd(call, scratch);
     });
     if (call.end == begin) return false;
-    const LightPieces pieces(slices, threads);
+    const LightPieces pieces(slices);
     const ViewErrors most = largest(errors);
     std::atomic<std::size_t> next{0}, met{0};
     call.run([&](std::size_t, LightViewScratch& scratch) {
